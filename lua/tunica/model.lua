@@ -1,0 +1,382 @@
+-- SPDX-License-Identifier: MIT
+--- A model: a tissue, its rules, its events, and what is to be seen of it.
+
+local core = require "tunica.core"
+local registry = require "tunica.registry"
+local rules = require "tunica.rules"
+local params = require "tunica.params"
+local plain = require "tunica.plain"
+local op, fail = registry.op, registry.fail
+
+-- What belongs to each model; weak, so that the model itself shows only what is meant to be seen.
+local inside = setmetatable({}, { __mode = "k" })
+local methods = {}
+
+local function is_model(value) return type(value) == "table" and inside[value] ~= nil end
+registry.type("model", "a model", is_model, methods)
+
+local public = { tissue = true, params = true, name = true, views = true, reports = true, report_every = true, failure = true, stop = true, about = true }
+
+local meta = { __metatable = "model" }
+
+function meta.__index(model, key)
+  if methods[key] then return methods[key] end
+  local my = inside[model]
+  if key == "time" then return my.machine and (core.machine_time(my.machine)) or my.saved_time end
+  if key == "steps" then return my.machine and select(2, core.machine_time(my.machine)) or 0 end
+  if key == "about" then return methods.describe(model) end
+  if public[key] then return my[key] end
+  local names = { "time", "steps" }
+  for name in pairs(public) do names[#names + 1] = name end
+  for name in pairs(methods) do names[#names + 1] = name end
+  fail("a model has no '%s'%s", tostring(key), type(key) == "string" and core.did_you_mean(key, names) or "")
+end
+
+function meta.__newindex(model, key, value)
+  if key == "name" and type(value) == "string" then inside[model].name = value return end
+  fail("'%s' of a model cannot be set; use its operations (model:rate, model:every, ...)", tostring(key))
+end
+
+function meta.__tostring(model)
+  local my = inside[model]
+  return string.format("model %s: %d cells, %d rules, time %.6g", my.name or "", my.tissue:count(), #my.rules, model.time)
+end
+
+local methods_of_solution = { "euler", "heun" }
+
+local header = [[local tunica = require "tunica"
+local tissue = tunica.ring { 50 }
+tissue:cell { auxin = function(c) return 1 + c:uniform(-.02, .02) end }
+local model = tunica.model { tissue = tissue, dt = .01 }
+]]
+local diffusion = header .. [[model:rate(function(c, d) d.auxin = c:sum(function(n) return n.auxin - c.auxin end) end)
+]]
+
+op { name = "tunica.model", kind = "named", returns = "a model",
+  doc = "A model of a tissue: to be given rules (derive, rate, flux), events (every, at, when), views and a report.",
+  args = {
+    { name = "tissue", type = "tissue", required = true, doc = "the tissue" },
+    { name = "params", type = "any", doc = "the table that tunica.params gave" },
+    { name = "dt", type = "number", above = 0, required = true, unit = "time", doc = "longest step" },
+    { name = "method", type = "string", choices = methods_of_solution, default = "euler", doc = "method of integration" },
+    { name = "threads", type = "integer", min = 1, max = 64, default = 1, doc = "threads for tissues of 5,000 cells and more; the result does not depend on it" },
+    { name = "stop", type = "number", min = 0, unit = "time", doc = "when a batch run ends, unless --until says so" },
+    { name = "signed", type = "list", of = "string", default = {}, doc = "columns that may become negative" },
+  },
+  example = header .. "print(model)",
+  fn = function(o)
+    if o.params ~= nil and not params.is(o.params) then
+      fail("tunica.model: 'params' must be what tunica.params gave, came %s", core.describe(o.params))
+    end
+    local model = setmetatable({}, meta)
+    inside[model] = { tissue = o.tissue, params = o.params or params.current(), dt = o.dt, method = o.method, threads = o.threads,
+      signed = o.signed, stop = o.stop, rules = {}, events = {}, conditions = {}, views = {}, reports = {}, saved_time = 0, stale = true, warnings = {} }
+    return model
+  end }
+
+-- Rules ----------------------------------------------------------------------------------------------------------------
+
+local kinds = { "cell", "side", "wall" }
+
+local function add_rule(what)
+  return function(model, kind_or_fn, fn)
+    local kind = "cell"
+    if type(kind_or_fn) == "string" then kind = kind_or_fn elseif fn == nil then fn = kind_or_fn end
+    if type(fn) ~= "function" then fail("model:%s: a rule must be a function, came %s", what, core.describe(fn)) end
+    local my = inside[model]
+    my.rules[#my.rules + 1] = { what = what, kind = kind, fn = fn, where = core.where():gsub(":%s*$", "") }
+    my.stale = true
+  end
+end
+
+local element = { name = "element", type = "string|function", choices = kinds, required = true,
+  doc = "the rule for cells; or 'cell', 'side' or 'wall', and then the rule" }
+local rule = { name = "rule", type = "function", doc = "the rule, if an element was named" }
+
+op { name = "model:derive", args = { element, rule }, fn = add_rule "derive",
+  doc = "Columns that follow from others at every moment: function(c, t) c.x = ... end; for sides function(s, t), for walls function(w, a, b, t).",
+  example = diffusion .. "model:derive(function(c) c.twice = 2 * c.auxin end)" }
+op { name = "model:rate", args = { element, rule }, fn = add_rule "rate", source = "thesis 9.1",
+  doc = "Rates of change: function(c, d, t) d.x = ... end; for sides function(s, d, t), for walls function(w, d, a, b, t). Rates of several rules are added.",
+  example = diffusion }
+op { name = "model:flux", returns = nil, source = "thesis 5.9",
+  args = { { name = "column", type = "string", required = true, doc = "the concentration that is carried" },
+    { name = "flux", type = "function", required = true, doc = "function(w, a, b, t): amount per time through wall w from cell a to cell b" } },
+  doc = "Transport through walls: what leaves a arrives in b. The concentration changes by the amount divided by the cell's area (by the amount itself in a tissue without geometry).",
+  example = header .. [[model:flux("auxin", function(w, a, b) return a.auxin - b.auxin end)]],
+  fn = function(model, column, fn)
+    local my = inside[model]
+    my.rules[#my.rules + 1] = { what = "flux", kind = "wall", column = column, fn = fn, where = core.where():gsub(":%s*$", "") }
+    my.stale = true
+  end }
+
+-- Events ----------------------------------------------------------------------------------------------------------------
+
+local function event(kind, time, fn) return { kind = kind, time = time, fn = fn, fired = 0 } end
+
+op { name = "model:every", fn = function(model, interval, fn) table.insert(inside[model].events, event("every", interval, fn)) end,
+  args = { { name = "interval", type = "number", above = 0, required = true, unit = "time", doc = "first after one interval" },
+    { name = "event", type = "function", required = true, doc = "function(t)" } },
+  doc = "Something that happens at regular times: growth, division.", example = diffusion .. "model:every(1, function(t) print(t) end)" }
+op { name = "model:at", fn = function(model, time, fn) table.insert(inside[model].events, event("at", time, fn)) end,
+  args = { { name = "time", type = "number", min = 0, required = true, unit = "time", doc = "when" },
+    { name = "event", type = "function", required = true, doc = "function(t)" } },
+  doc = "Something that happens once.", example = diffusion .. "model:at(2, function() print 'now' end)" }
+op { name = "model:when",
+  args = { { name = "condition", type = "function", required = true, doc = "function(t): true or false; asked after each step" },
+    { name = "event", type = "function", required = true, doc = "function(t)" } },
+  doc = "Something that happens each time a condition becomes true.",
+  example = diffusion .. "model:when(function() return tissue:max 'auxin' < 1.01 end, function(t) print(t) end)",
+  fn = function(model, condition, fn) table.insert(inside[model].conditions, { test = condition, fn = fn, holds = false }) end }
+
+-- Views and report -------------------------------------------------------------------------------------------------------
+
+op { name = "model:report", kind = "named", rest = { type = "function" },
+  args = { { name = "every", type = "number", above = 0, unit = "time", doc = "interval of the time series; without it there is none" } },
+  doc = "What the model says at its end, by name: functions that return a number, text or a table. With `every` also as a time series.",
+  example = diffusion .. "model:report { every = 1, most = function() return tissue:max 'auxin' end }",
+  fn = function(model, o)
+    local my = inside[model]
+    my.report_every = o.every or my.report_every
+    for name, fn in pairs(o) do
+      if name ~= "every" then my.reports[#my.reports + 1] = { name = name, fn = fn } end
+    end
+  end }
+
+--- For view.lua, which knows what a view may hold.
+function methods.add_view(model, view) table.insert(inside[model].views, view) end
+
+-- Binding the rules --------------------------------------------------------------------------------------------------------
+
+local function values_of(my) return my.params and params.values(my.params) or {} end
+
+--- Numbers that rules hold from outside: if one changes, the rules must be traced again.
+local function held_numbers(my)
+  local text = {}
+  for _, r in ipairs(my.rules) do
+    for _, upvalue in ipairs(core.upvalues(r.fn)) do
+      local kind = type(upvalue[2])
+      if kind == "number" or kind == "boolean" or kind == "string" then text[#text + 1] = upvalue[1] .. "=" .. tostring(upvalue[2]) end
+    end
+  end
+  return table.concat(text, ";")
+end
+
+local function untraced_warning(my, r, reason)
+  my.warnings[#my.warnings + 1] = string.format("%s: this %s rule is run by the interpreter, some hundred times slower: %s", r.where, r.what, reason)
+  io.stderr:write("tunica: ", my.warnings[#my.warnings], "\n")
+end
+
+--- Traces what can be traced; rules named in `direct` run as they are.
+local function build(my)
+  local set, index = core.rules(my.tissue), 0
+  for _, r in ipairs(my.rules) do
+    local reason = r.direct or rules.trace(set, r)
+    if reason then
+      if not r.direct then
+        r.direct = reason
+        untraced_warning(my, r, reason)
+      end
+      rules.add_direct(set, r, my.tissue)
+      r.index = nil
+    else
+      index = index + 1
+      r.index = index
+    end
+  end
+  return set, core.machine(set, my.method, my.dt, my.threads, my.signed)
+end
+
+local function verify(my, set, machine)
+  core.derive(machine, values_of(my))
+  local time = core.machine_time(machine)
+  for _, r in ipairs(my.rules) do
+    local difference = r.index and rules.compare(set, r.index, r, my.tissue, values_of(my), time)
+    if difference then
+      r.direct = difference
+      untraced_warning(my, r, difference)
+      return false
+    end
+  end
+  core.check_lowering(set, machine, values_of(my))
+  return true
+end
+
+local function prepare(my)
+  local held = held_numbers(my)
+  if not my.stale and held == my.held then return end
+  if my.held and held ~= my.held then
+    for _, r in ipairs(my.rules) do r.direct = nil end
+  end
+  local old = my.machine
+  repeat
+    my.set, my.machine = build(my)
+    if old then core.machine_load(my.machine, core.machine_save(old)) end
+  until verify(my, my.set, my.machine)
+  my.held, my.stale = held, false
+end
+
+local function refresh_derived(my)
+  for _, r in ipairs(my.rules) do
+    if r.what == "derive" then core.derive(my.machine, values_of(my)) return end
+  end
+end
+
+-- Running ------------------------------------------------------------------------------------------------------------------
+
+--- When an event is due next, or nil.
+local function due(e)
+  if e.kind == "every" then return e.time * (e.fired + 1) end
+  return e.fired == 0 and e.time or nil
+end
+
+local function next_event(my, limit)
+  local earliest = limit
+  for _, e in ipairs(my.events) do
+    local time = due(e)
+    if time and time < earliest then earliest = time end
+  end
+  return earliest
+end
+
+local function fire_events(my, now)
+  local slack, refreshed = 1e-9 * my.dt, false
+  for _, e in ipairs(my.events) do
+    local time = due(e)
+    if time and time <= now + slack then
+      if not refreshed then refresh_derived(my) end
+      refreshed = true
+      e.fired = e.fired + 1
+      e.fn(now)
+    end
+  end
+end
+
+local function test_conditions(my, now)
+  if #my.conditions == 0 then return end
+  refresh_derived(my)
+  for _, condition in ipairs(my.conditions) do
+    local holds = condition.test(now) and true or false
+    local becomes = holds and not condition.holds
+    condition.holds = holds
+    if becomes then condition.fn(now) end
+  end
+end
+
+local function step_towards(my, target, pause, deadline)
+  if #my.conditions > 0 then pause = -math.huge end
+  local seconds = deadline and math.max(0, deadline - core.now())
+  local ok, status = pcall(core.advance, my.machine, values_of(my), target, pause, seconds)
+  if not ok then
+    my.failure = core.failure(my.machine)
+    error(status, 0)
+  end
+  return status
+end
+
+--- See the operation below.
+local function advance(model, o)
+  local my = inside[model]
+  prepare(my)
+  my.failure = nil
+  local deadline = o.seconds and core.now() + o.seconds
+  local slack = 1e-9 * my.dt
+  while true do
+    local now = model.time
+    fire_events(my, now)
+    prepare(my)
+    if o.pause and now >= o.pause - slack and now < o.to then return "paused" end
+    if now >= o.to then break end
+    if core.cancelled() then return "interrupted" end
+    local status = step_towards(my, math.max(next_event(my, o.to), now), o.pause, deadline)
+    if status == "interrupted" then return status end
+    test_conditions(my, model.time)
+    if status == "out of time" then return status end
+    if deadline and core.now() >= deadline and model.time < o.to then
+      return "out of time"
+    end
+  end
+  refresh_derived(my)
+  return "done"
+end
+
+op { name = "model:advance", kind = "named", returns = "'done', 'paused', 'out of time' or 'interrupted'",
+  doc = "Runs the model to a time, events included. How often it pauses changes no step.",
+  args = { { name = "to", type = "number", required = true, position = 1, unit = "time", doc = "until when" },
+    { name = "pause", type = "number", infinite = true, unit = "time", doc = "stop after the first step that ends then or later" },
+    { name = "seconds", type = "number", min = 0, unit = "s", doc = "stop after so much time on the clock" } },
+  example = diffusion .. "model:advance { to = 1 } print(model.time)",
+  fn = function(model, o)
+    local status = advance(model, o)
+    if status ~= "done" then refresh_derived(inside[model]) end
+    return status
+  end }
+
+-- What changes, as bytes -------------------------------------------------------------------------------------------------
+
+local function functions_of(my)
+  local list = {}
+  for _, e in ipairs(my.events) do list[#list + 1] = e.fn end
+  for _, c in ipairs(my.conditions) do
+    list[#list + 1] = c.test
+    list[#list + 1] = c.fn
+  end
+  for _, r in ipairs(my.reports) do list[#list + 1] = r.fn end
+  for _, r in ipairs(my.rules) do list[#list + 1] = r.fn end
+  return list
+end
+
+op { name = "model:snapshot", returns = "text", example = diffusion .. "print(#model:snapshot())",
+  doc = "Everything that changes during a run: the tissue, the time, the events, parameters, and the plain values (numbers, text, tables of them) that functions of the model keep.",
+  fn = function(model)
+    local my = inside[model]
+    prepare(my)
+    local fired, holds = {}, {}
+    for i, e in ipairs(my.events) do fired[i] = e.fired end
+    for i, c in ipairs(my.conditions) do holds[i] = c.holds end
+    return core.pack { tissue = core.tissue_save(my.tissue), machine = core.machine_save(my.machine),
+      script = plain.encode { fired = fired, holds = holds, params = values_of(my), data = my.tissue.data,
+        upvalues = plain.upvalues(functions_of(my)), globals = plain.globals() } }
+  end }
+
+op { name = "model:restore", args = { { name = "snapshot", type = "string", required = true, doc = "what model:snapshot() gave" } },
+  doc = "Goes back to a snapshot of the same script.", example = diffusion .. "local s = model:snapshot() model:advance(1) model:restore(s) print(model.time)",
+  fn = function(model, bytes)
+    local my = inside[model]
+    local parts = core.unpack(bytes)
+    if not (parts.tissue and parts.machine and parts.script) then fail("this is no snapshot of a model") end
+    prepare(my)
+    core.tissue_load(my.tissue, parts.tissue)
+    local script = plain.decode(parts.script, my.tissue)
+    if type(script) ~= "table" or #script.fired ~= #my.events or #script.holds ~= #my.conditions then
+      fail("the snapshot is of another script: it has %d events, the model %d", type(script) == "table" and #script.fired or 0, #my.events)
+    end
+    for i, e in ipairs(my.events) do e.fired = script.fired[i] end
+    for i, c in ipairs(my.conditions) do c.holds = script.holds[i] end
+    if my.params then
+      for name, value in pairs(script.params) do my.params[name] = value end
+    end
+    plain.refill(my.tissue.data, script.data)
+    plain.set_upvalues(functions_of(my), script.upvalues)
+    plain.set_globals(script.globals)
+    core.machine_load(my.machine, parts.machine)
+    prepare(my)
+  end }
+
+op { name = "model:hash", returns = "16 hexadecimal digits", doc = "A fingerprint of everything that changes; equal states have equal ones.",
+  example = diffusion .. "print(model:hash())", fn = function(model) return core.hash(model:snapshot()) end }
+
+--- For run.json: method and why, rules, warnings, cost.
+function methods.describe(model)
+  local my = inside[model]
+  prepare(my)
+  local listed = {}
+  for i, r in ipairs(my.rules) do
+    listed[i] = { rule = r.what, element = r.kind, where = r.where, traced = not r.direct, reason = r.direct or nil }
+  end
+  local seconds, cell_steps, form = core.machine_cost(my.machine)
+  return { method = my.method, dt = my.dt, why = "named by the model", threads = my.threads, rules = listed, warnings = my.warnings,
+    sums = form, cost = { seconds = seconds, cell_steps = cell_steps, ns_per_cell_step = cell_steps > 0 and seconds / cell_steps * 1e9 or nil } }
+end
+
+return { is_model = is_model, inside = inside }

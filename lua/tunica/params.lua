@@ -1,0 +1,165 @@
+-- SPDX-License-Identifier: MIT
+--- Parameters of a model: declared with their defaults, changed by key=value on the command line, read as P.name.
+
+local core = require "tunica.core"
+local registry = require "tunica.registry"
+local fail = registry.fail
+
+local params = {}
+
+--- Set while a rule is traced: function(P, name, value) returns the symbol to stand for a number. Else nil.
+params.trace_hook = nil
+
+-- What belongs to each table of parameters: { values =, declared =, names =, overridden = }. Weak, so that P itself
+-- holds nothing that a script could reach or confuse.
+local inside = setmetatable({}, { __mode = "k" })
+
+local current  -- the parameters of this script
+
+local function is_finite(x) return x == x and x ~= math.huge and x ~= -math.huge end
+
+local function words(value)
+  return type(value) == "string" and "'" .. value .. "'" or tostring(value)
+end
+
+--- Checks a value against a parameter's type and limits; returns nil or what is wrong.
+local function complaint(spec, value)
+  if type(value) ~= spec.type then return string.format("expected a %s, got %s", spec.type, words(value)) end
+  if spec.type ~= "number" then return nil end
+  if not is_finite(value) then return "expected a finite number, got " .. tostring(value) end
+  if spec.min and value < spec.min then return string.format("expected at least %.14g, got %.14g", spec.min, value) end
+  if spec.max and value > spec.max then return string.format("expected at most %.14g, got %.14g", spec.max, value) end
+end
+
+local known = { "unit", "min", "max" }
+
+--- { 1.0, "what it means", unit = "...", min =, max = }, or the plain value.
+local function read_declaration(name, given)
+  local spec = type(given) == "table" and given or { given }
+  for key in pairs(spec) do
+    if type(key) == "string" and key ~= "unit" and key ~= "min" and key ~= "max" then
+      fail("parameter '%s' has no option '%s'%s; write { value, \"meaning\", unit =, min =, max = }", name, key,
+        core.did_you_mean(key, known))
+    end
+  end
+  local kind = type(spec[1])
+  if kind ~= "number" and kind ~= "boolean" and kind ~= "string" then
+    fail("parameter '%s': expected a number, true or false, or text as default, got %s", name, kind)
+  end
+  local declared = { type = kind, default = spec[1], doc = spec[2], unit = spec.unit, min = spec.min, max = spec.max }
+  local wrong = complaint(declared, spec[1])
+  if wrong then fail("parameter '%s': %s", name, wrong) end
+  return declared
+end
+
+--- The text of a key=value argument as a value of the parameter's type.
+local function read_override(name, spec, text)
+  local value = text
+  if spec.type == "number" then
+    value = tonumber(text)
+  elseif spec.type == "boolean" then
+    value = ({ ["true"] = true, ["false"] = false })[text]
+  end
+  local wrong
+  if value == nil then
+    wrong = string.format("expected %s, got '%s'", spec.type == "number" and "a number" or "true or false", text)
+  else
+    wrong = complaint(spec, value)
+  end
+  if wrong then
+    core.blame_command_line()
+    error(string.format("parameter '%s': %s (on the command line: %s=%s)", name, wrong, name, text), 0)
+  end
+  return value
+end
+
+local function unknown(P, name)
+  local names = inside[P].names
+  if type(name) ~= "string" then fail("parameters have names, got a %s", type(name)) end
+  fail("there is no parameter '%s'%s", name, core.did_you_mean(name, names))
+end
+
+local meta = { __metatable = "parameters" }
+
+function meta.__index(P, name)
+  local value = inside[P].values[name]
+  if value == nil then unknown(P, name) end
+  if params.trace_hook and type(value) == "number" then return params.trace_hook(P, name, value) end
+  return value
+end
+
+function meta.__newindex(P, name, value)
+  local my = inside[P]
+  if my.values[name] == nil then unknown(P, name) end
+  local wrong = complaint(my.declared[name], value)
+  if wrong then fail("parameter '%s': %s", name, wrong) end
+  my.values[name] = value
+end
+
+function meta.__pairs(P) return pairs(inside[P].values) end
+
+function meta.__tostring(P)
+  local lines = {}
+  for name, value in pairs(inside[P].values) do lines[#lines + 1] = name .. " = " .. words(value) end
+  return "parameters { " .. table.concat(lines, ", ") .. " }"
+end
+
+local function apply_command_line(my)
+  for name, text in pairs(core.overrides()) do
+    local spec = my.declared[name]
+    if not spec then
+      core.blame_command_line()
+      error(string.format("the model has no parameter '%s'%s; it has: %s", name, core.did_you_mean(name, my.names),
+        table.concat(my.names, ", ")), 0)
+    end
+    my.values[name] = read_override(name, spec, text)
+    my.overridden[#my.overridden + 1] = name
+  end
+end
+
+function params.declare(given)
+  if current then fail("tunica.params was called before in this script; a model has one table of parameters") end
+  local my = { values = {}, declared = {}, names = {}, overridden = {} }
+  for name, default in pairs(given) do
+    if not name:match "^[%a_][%w_]*$" then fail("'%s' cannot name a parameter; expected letters, digits, _", name) end
+    my.declared[name] = read_declaration(name, default)
+    my.values[name] = my.declared[name].default
+    my.names[#my.names + 1] = name
+  end
+  apply_command_line(my)
+  local P = setmetatable({}, meta)
+  inside[P] = my
+  current = P
+  return P
+end
+
+registry.op {
+  name = "tunica.params", kind = "named", rest = { type = "any" },
+  doc = "The parameters of the model with their defaults. On the command line, name=value changes one. A parameter is " ..
+    "given by its default, or with its meaning and limits: D = { 1.0, \"diffusion\", unit = \"um2/s\", min = 0 }.",
+  returns = "the parameters; P.name reads one",
+  example = [[
+local tunica = require "tunica"
+local P = tunica.params { D = { 1.0, "diffusion", min = 0 }, rule = "errera", noisy = false }
+print(P.D)]],
+  fn = params.declare,
+}
+
+--- For the rest of the library -------------------------------------------------------------------------------------
+
+--- The parameters of the script that runs, or nil.
+function params.current() return current end
+
+--- True if the value is a table of parameters.
+function params.is(value) return inside[value] ~= nil end
+
+--- The table of values behind P: name -> number, boolean or string.
+function params.values(P) return inside[P].values end
+
+--- The declarations behind P: name -> { type, default, doc, unit, min, max }.
+function params.declared(P) return inside[P].declared end
+
+--- Names, sorted, that the command line changed.
+function params.overridden(P) return inside[P].overridden end
+
+return params

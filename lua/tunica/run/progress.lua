@@ -1,0 +1,67 @@
+-- SPDX-License-Identifier: MIT
+--- How far a run is: one line that renews itself on a terminal; else a line every tenth of the way or half minute.
+
+local core = require "tunica.core"
+
+local progress = {}
+
+local function clock(seconds)
+  if seconds >= 360000 then return ">99h" end
+  local s = math.floor(seconds + 0.5)
+  if s >= 3600 then return string.format("%d:%02d:%02d", s / 3600, s / 60 % 60, s % 60) end
+  return string.format("%d:%02d", s / 60, s % 60)
+end
+
+--- 1234567 -> "1.2M"
+local function short(number)
+  for _, unit in ipairs { { 1e9, "G" }, { 1e6, "M" }, { 1e3, "k" } } do
+    if number >= unit[1] then return string.format("%.1f%s", number / unit[1], unit[2]) end
+  end
+  return string.format("%.0f", number)
+end
+
+--- `goal`: end of model time. Rates are of the last seconds, not since the start: tissues grow.
+function progress.new(goal, terminal, quiet)
+  local now = core.now()
+  return { goal = goal, terminal = terminal, quiet = quiet, shown = now, since = { now, nil, 0 }, tenth = nil }
+end
+
+local function line(self, time, cells, now)
+  local wall, advanced = now - self.since[1], time - self.since[2]
+  local work = self.work - self.since[3]
+  local done = self.goal > 0 and time / self.goal or 1
+  local text = string.format("t = %.6g of %.6g (%d %%), %d cells", time, self.goal, math.floor(100 * done), cells)
+  if wall > 0 and advanced > 0 then
+    text = text .. string.format(", %s cell steps/s, %s to go", short(work / wall), clock((self.goal - time) / advanced * wall))
+  end
+  return text
+end
+
+--- Called often; shows something now and then. `work`: cell steps done so far.
+function progress.update(self, time, cells, work)
+  if self.quiet then return end
+  self.work = work
+  local now = core.now()
+  self.since[2] = self.since[2] or time
+  local tenth = math.floor(self.goal > 0 and 10 * time / self.goal or 10)
+  self.tenth = self.tenth or tenth
+  local due
+  if self.terminal then
+    due = now - self.shown >= 0.25
+  else
+    due = now - self.shown >= 30 or (tenth > self.tenth and now - self.shown >= 1)
+  end
+  if not due then return end
+  io.stderr:write(self.terminal and "\r\27[K" or "", line(self, time, cells, now), self.terminal and "" or "\n")
+  io.stderr:flush()
+  self.shown, self.tenth, self.drawn = now, tenth, true
+  if now - self.since[1] > 5 then self.since = { now, time, work } end
+end
+
+--- Takes the line off a terminal, so that what follows stands alone.
+function progress.clear(self)
+  if self.terminal and self.drawn then io.stderr:write("\r\27[K") end
+  self.drawn = false
+end
+
+return progress

@@ -1,0 +1,253 @@
+-- SPDX-License-Identifier: MIT
+--- What can be asked of a whole tissue: its elements, its state, and how it stands.
+
+local core = require "tunica.core"
+local registry = require "tunica.registry"
+local op, fail = registry.op, registry.fail
+
+local setup = [[
+local tunica = require "tunica"
+local tissue = tunica.hexagons { 4, 4 }
+tissue:cell { auxin = function(c) return c:uniform(0, 1) end }
+]]
+
+local kinds = { "cell", "wall", "side", "junction" }
+local kind_argument = { name = "kind", type = "string", choices = kinds, default = "cell", doc = "kind of element" }
+
+-- Elements ---------------------------------------------------------------------------------------------------------
+
+for _, kind in ipairs(kinds) do
+  op { name = "tissue:" .. kind .. "s", fn = function(self) return (core.each(self, kind)) end,
+    doc = string.format("Goes through the %ss in the order of their identities. The tissue may change meanwhile: %ss " ..
+      "that are gone when their turn comes are left out, new ones do not come.", kind, kind),
+    returns = "an iterator: " .. kind,
+    example = setup .. string.format("for e in tissue:%ss() do print(e.id) end", kind) }
+end
+op { name = "tissue:count", fn = core.count, args = { kind_argument }, returns = "a whole number",
+  doc = "How many cells, or walls, sides or junctions, there are. #tissue is the number of cells.",
+  example = setup .. [[print(tissue:count(), tissue:count "wall")]] }
+op { name = "tissue:find", returns = "the element, or nil if it is gone or never was",
+  args = { { name = "id", type = "integer", min = 0, max = 2 ^ 32 - 1, required = true, doc = "identity" }, kind_argument },
+  doc = "The element with an identity.", fn = function(self, id, kind) return (core.find(self, kind, id)) end,
+  example = setup .. [[print(tissue:find(3))]] }
+op { name = "tissue.data", kind = "property", fn = core.data, returns = "a table",
+  doc = "A table for values of your own that belong to the whole tissue.", source = "thesis table 9.1: S.x",
+  example = setup .. [[tissue.data.plastochron = 4.5 print(tissue.data.plastochron)]] }
+op { name = "tissue.seed", kind = "property", fn = core.tissue_seed, returns = "a whole number",
+  doc = "The seed of the tissue's random numbers.", example = setup .. [[print(tissue.seed)]] }
+op { name = "tissue.has_geometry", kind = "property", fn = core.has_geometry, returns = "true or false",
+  doc = "Whether cells have places, areas and junctions (sheets), or neighbours only (lines, rings, grids).",
+  example = setup .. [[print(tissue.has_geometry)]] }
+
+-- Columns ----------------------------------------------------------------------------------------------------------
+
+local inherit_words = { "copy", "split", "reset" }
+
+--- Value, inheritance of one declared column: 1.0, function(e) ... end, or { value, divide = ... }.
+local function declaration(kind, name, given)
+  local value, divide = given, nil
+  if type(given) == "table" then
+    for key in pairs(given) do
+      if key ~= 1 and key ~= "value" and key ~= "divide" then
+        fail("tissue:%s: column '%s' has no option %s; write { value, divide = 'copy' }", kind, name, core.describe(key))
+      end
+    end
+    value, divide = given[1], given.divide
+    if value == nil then value = given.value end
+    if value == nil then value = 0 end
+  end
+  if not registry.matches(value, { type = "number|function" }) then
+    fail("tissue:%s: the initial value of '%s' must be a finite number or a function of the %s, came %s", kind, name, kind,
+      core.describe(value))
+  end
+  local ok, hint = registry.matches(divide, { type = "string|function", choices = inherit_words })
+  if divide ~= nil and not ok then
+    fail("tissue:%s: 'divide' of '%s' must be 'copy', 'split', 'reset' or a function(mother, share) that returns the " ..
+      "values of both parts, came %s%s", kind, name, core.describe(divide), hint)
+  end
+  return value, divide
+end
+
+local function declare(kind)
+  return function(self, columns)
+    for name, given in pairs(columns) do
+      if core.methods[kind][name] or core.properties[kind][name] then
+        fail("tissue:%s: '%s' means something else for a %s already; choose another name", kind, name, kind)
+      end
+      core.add_column(self, kind, name, declaration(kind, name, given))
+    end
+    return self
+  end
+end
+
+for _, kind in ipairs(kinds) do
+  op { name = "tissue:" .. kind, kind = "named", fn = declare(kind), returns = "the tissue",
+    rest = { type = "number|function|table", doc = "name of the column = initial value, or { value, divide = ... }" },
+    doc = "Declares state that every " .. kind .. " has: name = value. The value is a number or a function of the " ..
+      kind .. "; or { value, divide = what }, which says what the two parts get when the " .. kind .. " is divided: " ..
+      "'copy' (both the same: concentrations; the default), 'split' (in proportion to " ..
+      (kind == "cell" and "area" or "length") .. ": amounts), 'reset' (the initial value), or a function(mother's value, " ..
+      "the first part's share) that returns two values.",
+    example = [[
+local tunica = require "tunica"
+local tissue = tunica.hexagons { 3, 3 }
+tissue:]] .. kind .. [[ { age = 0, amount = { 5, divide = "split" }, noise = function(e) return e:uniform(0.9, 1.1) end }
+]] }
+end
+
+local column = { name = "column", type = "column", required = true, doc = "name of a column of the cells" }
+for name, words in pairs {
+  sum = "The sum of a column over all cells.", mean = "The mean of a column over all cells.",
+  min = "The least value of a column.", max = "The greatest value of a column.",
+} do
+  op { name = "tissue:" .. name, doc = words, args = { column }, returns = "a number",
+    fn = function(self, of) return (core[name](self, "cell", of)) end,
+    example = setup .. string.format("print(tissue:%s 'auxin')", name) }
+end
+
+-- Structure --------------------------------------------------------------------------------------------------------
+
+op { name = "tissue:add_cell", fn = core.add_cell, returns = "the new cell",
+  doc = "Adds a cell without neighbours; cell:join gives it some. Only in a tissue without geometry.",
+  example = [[
+local tunica = require "tunica"
+local tissue = tunica.line { 3 }
+local c = tissue:add_cell()
+c:join(tissue:find(3))
+print(c.valence)]] }
+op { name = "tissue:insert_row",
+  args = { { name = "after", type = "integer", min = 0, max = 2 ^ 31 - 1, default = 0, doc = "number of the row above" } },
+  doc = "Inserts a row of cells into a grid or cylinder, between row `after` and the next. New cells start with the mean " ..
+    "of both rows' values. Rows below count one up.", source = "thesis 5.4",
+  fn = core.insert_row,
+  example = [[
+local tunica = require "tunica"
+local tissue = tunica.cylinder { around = 10, rows = 4 }
+tissue:insert_row(0)
+print(tissue:max "row")]] }
+op { name = "tissue:remove_row", fn = core.remove_row, doc = "Removes the last row of a grid or cylinder.",
+  example = [[
+local tunica = require "tunica"
+local tissue = tunica.cylinder { around = 10, rows = 4 }
+tissue:remove_row()
+print(#tissue)]] }
+op { name = "tissue:renumber", fn = core.renumber,
+  doc = "Puts the cells into an order in memory in which neighbours lie near each other: rules then run faster on large " ..
+    "tissues that have grown. Nothing else changes, identities least of all.",
+  example = setup .. "tissue:renumber()" }
+
+-- How it stands ----------------------------------------------------------------------------------------------------
+
+op { name = "tissue:validate", returns = "true, or false and a list of sentences",
+  doc = "Checks every invariant of the tissue: neighbourhoods consistent, Euler's formula, areas positive, no cell crossing " ..
+    "itself, columns of the right length.",
+  fn = function(self)
+    local found = core.problems(self)
+    if #found > 0 then return false, found end
+    return true
+  end,
+  example = setup .. "assert(tissue:validate())" }
+op { name = "tissue:hash", fn = core.tissue_hash, returns = "16 hexadecimal digits",
+  doc = "A number that two tissues share only if structure, geometry and state are the same to the last bit.",
+  example = setup .. "print(tissue:hash())" }
+
+-- Growth and division ----------------------------------------------------------------------------------------------
+
+local sheet = [[
+local tunica = require "tunica"
+local tissue = tunica.sheet { cells = 20, seed = 1 }
+]]
+
+op { name = "tissue:grow", kind = "named", source = "thesis 3.3, 10.2",
+  args = {
+    { name = "rate", type = "number", position = 1, unit = "1 / time",
+      doc = "all lengths grow at this relative rate: in the time t by the factor exp(rate t)" },
+    { name = "rates", type = "list", of = "number", count = { 2, 2 }, unit = "1 / time",
+      doc = "instead: { along, across } a direction" },
+    { name = "direction", type = "vector", default = { 1, 0 }, doc = "the first of two rates is along this direction" },
+    { name = "centre", type = "vector", default = { 0, 0 }, doc = "the point that stays where it is" },
+    { name = "velocity", type = "function", doc = "instead: function(x, y, z, t) that returns vx, vy (and vz)" },
+    { name = "time", type = "number", min = 0, default = 1, unit = "time", doc = "how long" },
+    { name = "from", type = "number", default = 0, unit = "time", doc = "t at the start, for a velocity that changes" },
+    { name = "substeps", type = "integer", min = 1, max = 1000, default = 1, doc = "for a velocity: steps within the time" },
+  },
+  doc = "Lets a tissue in the plane grow for some time: uniformly, at two rates, or by a field of velocities. The " ..
+    "structure stays as it is; state is not diluted.",
+  fn = function(self, t)
+    local ways = (t.rate and 1 or 0) + (t.rates and 1 or 0) + (t.velocity and 1 or 0)
+    if ways ~= 1 then fail("tissue:grow: give one of rate, rates and velocity") end
+    if t.rate then core.grow_uniform(self, t.time, t.rate, t.centre)
+    elseif t.rates then core.grow_anisotropic(self, t.time, t.rates[1], t.rates[2], t.direction, t.centre)
+    else core.grow_field(self, t.time, t.velocity, t.from, t.substeps) end
+  end,
+  example = sheet .. [[
+tissue:grow { rate = 0.01, time = 2 }
+tissue:grow { rates = { 0.02, 0.01 }, direction = { 0, 1 } }
+tissue:grow { velocity = function(x, y, z, t) return 0.1 * x, 0 end }]] }
+op { name = "tissue:deform",
+  args = { { name = "place", type = "function", required = true, doc = "function(x, y, z) that returns the new x, y (and z)" } },
+  doc = "Moves every junction to where a function puts it. Cells that would be turned over or cross themselves are an " ..
+    "error, and nothing moves.",
+  fn = core.deform,
+  example = sheet .. "tissue:deform(function(x, y) return x, y, -0.1 * (x * x + y * y) end)" }
+
+-- How walls are laid: the same for one cell and for all.
+local function division_options(others)
+  for _, spec in ipairs {
+    { name = "rule", type = "string|function", choices = { "errera", "closest_wall", "along" }, 
+      doc = "where the wall goes: 'errera', the shortest through the centroid (the default); 'closest_wall', towards the " ..
+        "nearest point of the outline; 'along' a direction; or function(c) that returns the ends of the wall, " ..
+        "x1, y1, x2, y2 (or two points { x, y } or { x, y, z })" },
+    { name = "direction", type = "vector|function", doc = "for 'along': of the new wall; or function(c) that returns it" },
+    { name = "gap", type = "number", min = 0, unit = "length",
+      doc = "least distance of the wall's ends from junctions; 0.15 of the square root of the cell's area if left out" },
+    { name = "pinch", type = "number", min = 0, below = 0.5, default = 0.08,
+      doc = "how far the wall's ends are drawn in, as a fraction of its length" },
+  } do others[#others + 1] = spec end
+  return others
+end
+
+local function rule_of(t) return t.rule or (t.direction and "along") or "errera" end
+
+op { name = "tissue:divide", kind = "named", returns = "the number of divisions", source = "thesis 3.4, figs 3.7, 3.8",
+  args = division_options {
+    { name = "above", type = "number", above = 0, position = 1, unit = "area",
+      doc = "cells divide whose area is above this, and their daughters, until none is" },
+    { name = "variation", type = "number", min = 0, below = 1, default = 0,
+      doc = "of that area from cell to cell, relative, uniform; fixed for each cell by the seed of the tissue" },
+    { name = "where", type = "function", doc = "function(c) that returns true for cells that divide; alone or with `above`" },
+    { name = "max_cells", type = "integer", min = 1, max = 2 ^ 24, default = 1000000, doc = "stops when there are so many" },
+  },
+  doc = "Divides cells, in the order of their identities. Four walls never meet in one point, and the ends of the wall are " ..
+    "pinched as in living tissue. What daughters get is said where the columns are declared.",
+  fn = function(self, t)
+    return (core.divide_cells(self, t.above, t.variation, t.where, t.max_cells, rule_of(t), t.direction, t.gap, t.pinch))
+  end,
+  example = sheet .. [[
+print(tissue:divide { above = 0.5, variation = 0.1 })
+print(tissue:divide { where = function(c) return c.x > 1 end, rule = "closest_wall" })
+print(tissue:divide { where = function(c) return c.id < 5 end, rule = function(c) return c.x - 1, c.y, c.x + 1, c.y end })]] }
+op { name = "cell:divide", kind = "named", returns = "the two daughters", source = "thesis 3.4",
+  args = division_options {},
+  doc = "Divides the cell. The cell itself is then gone: its handles are errors that name the daughters.",
+  fn = function(self, t) return core.divide_cell(self, rule_of(t), t.direction, t.gap, t.pinch) end,
+  example = sheet .. "local a, b = tissue:cells()():divide { direction = { 0, 1 } }\nprint(a.area, b.area)" }
+
+-- What it comes to -------------------------------------------------------------------------------------------------
+
+op { name = "tissue:statistics", returns = "a table",
+  doc = "The shapes of the cells. `cells`, `interior` (those without a border wall; all that follows is of them), " ..
+    "`shares[n]` (the fraction of cells with n sides), `mean_sides`, `variance_sides`, `mean_area`, `area_cv`, " ..
+    "`area_by_sides[n]` (relative to the mean), `lewis_slope`, `sharp_cells` (the fraction with an angle below 45 " ..
+    "degrees), `least_angle[1..18]` (fractions by least angle, in steps of 10 degrees), `mean_least_angle`, and " ..
+    "`four_way` (junctions of more than three walls).",
+  fn = core.statistics, example = sheet .. "print(tissue:statistics().mean_sides)" }
+
+local above = { name = "above", type = "number", doc = "only higher ones; the mean of the column if left out" }
+op { name = "tissue:count_peaks", args = { column, above }, returns = "a whole number", fn = core.count_peaks,
+  doc = "How many cells have more than each of their neighbours, and more than `above`.",
+  example = setup .. "print(tissue:count_peaks 'auxin')" }
+op { name = "tissue:peaks", args = { column, above }, fn = core.peaks,
+  returns = "a list of cells, the mean distance from a peak to the next (0 without geometry), its coefficient of variation",
+  doc = "The cells that have more than each of their neighbours, and more than `above`.",
+  example = setup .. "local peaks, distance = tissue:peaks 'auxin'\nprint(#peaks, distance)" }

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <exception>
+#include <lua.hpp>
+#include <new>
+#include <string>
+#include <utility>
+
+#include "base/cancel.h"
+
+namespace tunica::lua {
+
+/// Where math.random stands: part of every checkpoint. Unless a script calls math.randomseed, the run's seed serves.
+struct RandomStream {
+  uint64_t seed = 0;
+  uint64_t drawn = 0;
+  bool seeded = false;
+};
+
+/// What one Lua state knows of its host; lives as long as the state.
+struct Host {
+  CancelFlag cancel;
+  uint64_t seed = 1;  ///< master seed of the run
+  RandomStream random;
+  const void* metatables[5] = {};  ///< of the handles (Kind) and of the tissue (last); see handle.h
+  int tissues_made = 0;
+  lua_State* active = nullptr;  ///< the thread that runs an operation which may call back into Lua (see Entering)
+};
+Host& host(lua_State* L);
+
+/// For the length of an operation: callbacks that the kernel keeps (a column's rule at division) run on this thread.
+class Entering {
+ public:
+  explicit Entering(lua_State* L) : host_(host(L)), before_(std::exchange(host_.active, L)) {}
+  ~Entering() { host_.active = before_; }
+  Entering(const Entering&) = delete;
+
+ private:
+  Host& host_;
+  lua_State* before_;
+};
+
+/// Pushes "file:line: " of the innermost frame in the user's own code (chunks named "=tunica/..." are the library's).
+void push_where(lua_State* L);
+
+/// A Lua error caught on its way through C++ (a callback that failed): the very same value is handed on, so the user
+/// sees the line of the callback, not of the operation that called it.
+class ScriptError : public Error {
+ public:
+  /// Takes the error value from the top of the stack.
+  explicit ScriptError(lua_State* L);
+  void push(lua_State* L) const;
+
+ private:
+  int reference_;
+};
+
+/// Calls the function below its `arguments` on the stack; a Lua error comes back as a ScriptError.
+void call(lua_State* L, int arguments, int results);
+
+/// Runs `body`, turning any C++ exception into a Lua error with the script's file and line.
+/// Lua errors raised inside pass through (they unwind C++ frames). Every function given to Lua is wrapped in this.
+template <class Body>
+int guard(lua_State* L, Body&& body) {
+  try {
+    return body();
+  } catch (const ScriptError& error) {
+    error.push(L);
+  } catch (const std::bad_alloc&) {
+    push_where(L);
+    lua_pushstring(L, "out of memory");
+    lua_concat(L, 2);
+  } catch (const std::exception& error) {
+    push_where(L);
+    lua_pushstring(L, error.what());
+    lua_concat(L, 2);
+  }
+  return lua_error(L);
+}
+
+/// Adds the functions of one area to the table on top of the stack (the module `tunica.core`).
+void register_tissue(lua_State* L);
+void register_model(lua_State* L);
+void register_view(lua_State* L);
+void register_run(lua_State* L);
+
+}  // namespace tunica::lua

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lua.hpp>
+
+#include "view/tissue_scene.h"
+
+namespace tunica::lua {
+
+/// The settings of a view from the table at a stack index, as lua/tunica/view.lua prepares it from what a user wrote;
+/// everything is checked again. Functions in it are called for every element of the tissue, which must be at index 1.
+/// Errors: wrong types, unknown names (name the nearest), values out of range; what such a function raises.
+ViewSettings read_view_settings(lua_State* L, Tissue& tissue, int table);
+
+}  // namespace tunica::lua

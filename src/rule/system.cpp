@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "rule/system.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+
+#include "rule/sweep.h"
+
+namespace tunica {
+
+void AlignedBuffer::Free::operator()(double* p) const { std::free(p); }
+
+void AlignedBuffer::resize(size_t size) {
+  const size_t bytes = (size * sizeof(double) + 127) / 64 * 64;
+  data_.reset(static_cast<double*>(std::aligned_alloc(64, bytes)));
+  if (!data_) throw std::bad_alloc();
+  std::memset(data_.get(), 0, bytes);
+  size_ = size;
+}
+
+System::System(std::shared_ptr<Equations> equations, std::shared_ptr<Tissue> tissue, SystemOptions options)
+    : equations_(std::move(equations)), tissue_(std::move(tissue)), options_(options), kernels_(tunica::kernels(options.set)) {
+  Equations& e = *equations_;
+  std::vector<int> slots;
+  for (const Target& rate : e.rates) slots.push_back(rate.column);
+  for (const DirectRule& rule : e.direct_rates) slots.insert(slots.end(), rule.columns.begin(), rule.columns.end());
+  std::sort(slots.begin(), slots.end());
+  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+  for (const int slot : slots) state_.push_back({slot, e.columns[slot].kind, e.columns[slot].name, 0, 0});
+  state_of_column_.assign(e.columns.size(), -1);
+  for (size_t k = 0; k < state_.size(); ++k) state_of_column_[state_[k].column] = static_cast<int>(k);
+  flags_.resize(state_.size());
+  registers_.resize(static_cast<size_t>(std::max(1, options_.threads)));
+
+  std::vector<Output> derived;
+  for (const Equations::Derivation& d : e.derivations) {
+    for (const Target& target : d.traced) derived.push_back({target.column, target.value, false});
+    if (d.direct < 0) continue;
+    stages_.push_back({compile(derived), d.direct});
+    derived.clear();
+  }
+  stages_.push_back({compile(derived), -1});
+
+  std::vector<Output> rates;
+  for (const Target& rate : e.rates) {
+    const auto same = std::find_if(rates.begin(), rates.end(), [&](const Output& o) { return o.column == rate.column; });
+    if (same == rates.end())
+      rates.push_back({rate.column, rate.value, true});
+    else
+      same->value = e.graph.binary(Op::add, same->value, rate.value);
+  }
+  main_ = compile(rates);
+}
+
+System::~System() = default;
+
+System::Compiled System::compile(const std::vector<Output>& outputs) {
+  std::vector<bool> changes(equations_->columns.size(), false);
+  for (const StateColumn& s : state_) changes[s.column] = true;
+  for (const DirectRule& rule : equations_->direct_derivations)
+    for (const int column : rule.columns) changes[column] = true;
+  Compiled compiled;
+  compiled.plan = lower(*equations_, outputs, changes);
+  const std::vector<NodeId>& scalars = compiled.plan.scalars;
+  for (const NodeId id : scalars) {
+    const Node& n = equations_->graph[id];
+    const auto place = [&](NodeId x) {
+      return x == no_node ? -1 : static_cast<int>(std::find(scalars.begin(), scalars.end(), x) - scalars.begin());
+    };
+    compiled.scalar_operands.push_back({place(n.a), place(n.b), place(n.c)});
+  }
+  return compiled;
+}
+
+size_t System::padded(Kind kind) const {
+  const auto count = static_cast<size_t>(tissue_->count(kind));
+  return (count + block_size - 1) / block_size * block_size + block_size;
+}
+
+void System::allocate(Compiled& c) {
+  const size_t cells = padded(Kind::cell);
+  c.rows.resize(c.plan.row_width.size());
+  for (size_t r = 0; r < c.rows.size(); ++r) c.rows[r].resize(cells * c.plan.row_width[r]);
+  c.cell_temps.resize(cells * c.plan.cell_temps);
+  const auto rounded = [](Index n) { return static_cast<size_t>((n + block_size - 1) / block_size + 1) * block_size; };
+  c.edge_temps.resize(rounded(layout_->edges) * c.plan.edge_temps);
+  c.wall_temps.resize(rounded(layout_->walls) * c.plan.wall_temps);
+  c.scalars.assign(c.plan.scalars.size(), 0.0);
+}
+
+void System::run_fixed(Compiled& c) {
+  Sweep sweep{*this, c, 0, nullptr, nullptr, 0, nullptr};
+  sweep.run_fixed();
+  sweep.bind();
+}
+
+void System::prepare(const std::vector<double>& parameters) {
+  parameters_ = parameters;
+  std::vector<Compiled*> all{&main_};
+  for (Stage& stage : stages_) all.push_back(&stage.compiled);
+  if (topology_version_ != tissue_->topology_version()) {
+    topology_version_ = tissue_->topology_version();
+    layout_ = std::make_unique<Layout>(*tissue_);
+    const Layout& l = *layout_;
+    wall_indices_.clear();
+    for (const auto* list : {&l.own, &l.across, &l.wall, &l.side, &l.mirror}) {
+      std::vector<int32_t>& walls = wall_indices_.emplace_back(l.walls);
+      for (Index w = 0; w < l.walls; ++w) walls[w] = (*list)[l.primary[w]];
+    }
+    state_size_ = 0;
+    for (StateColumn& s : state_) {
+      s.offset = state_size_;
+      s.count = tissue_->count(s.kind);
+      state_size_ += padded(s.kind);
+    }
+    for (Compiled* c : all) allocate(*c);
+    side_rates_.resize(state_size_);
+    direct_rates_.resize(equations_->direct_rates.empty() ? 0 : state_size_);
+  }
+  for (Compiled* c : all) run_fixed(*c);
+}
+
+void System::read_state(double* y) const {
+  for (const StateColumn& s : state_)
+    std::memcpy(y + s.offset, tissue_->column(s.kind, s.name).values.data(), sizeof(double) * s.count);
+}
+
+void System::write_state(const double* y) const {
+  for (const StateColumn& s : state_)
+    std::memcpy(tissue_->column(s.kind, s.name).values.data(), y + s.offset, sizeof(double) * s.count);
+}
+
+void System::run(Compiled& c, double t, const double* y, double* dydt, double h, double* y_new) {
+  Sweep{*this, c, t, y, dydt, h, y_new}.run();
+}
+
+void System::run_stages(double t, const double* y) {
+  for (Stage& stage : stages_) {
+    run(stage.compiled, t, y, nullptr, 0, nullptr);
+    if (stage.direct >= 0) equations_->direct_derivations[stage.direct].evaluate(t, {});
+  }
+}
+
+void System::derive(double t, const double* y) {
+  write_state(y);
+  run_stages(t, y);
+}
+
+void System::add_direct_rates(double t, double* dydt) {
+  for (const DirectRule& rule : equations_->direct_rates) {
+    std::vector<double*> rates;
+    for (const int column : rule.columns) rates.push_back(dydt + state_[state_of_column_[column]].offset);
+    rule.evaluate(t, rates);
+  }
+}
+
+void System::rates(double t, const double* y, double* dydt) {
+  ++evaluations_;
+  if (has_direct()) derive(t, y);
+  std::fill_n(dydt, state_size_, 0.0);
+  run(main_, t, y, dydt, 0, nullptr);
+  add_direct_rates(t, dydt);
+}
+
+const std::vector<uint8_t>& System::euler(double t, const double* y, double h, double* y_new) {
+  std::fill(flags_.begin(), flags_.end(), 0);
+  bool cells_only = !has_direct();
+  for (const StateColumn& s : state_) cells_only = cells_only && s.kind == Kind::cell;
+  if (cells_only) {
+    ++evaluations_;
+    run(main_, t, y, nullptr, h, y_new);
+    return flags_;
+  }
+  double* dydt = side_rates_.data();
+  rates(t, y, dydt);
+  for (size_t k = 0; k < state_.size(); ++k)
+    flags_[k] = kernels_.advance({y + state_[k].offset, dydt + state_[k].offset, 0, h, y_new + state_[k].offset, state_[k].count});
+  return flags_;
+}
+
+}  // namespace tunica

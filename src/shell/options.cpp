@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "shell/options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+
+#include "base/error.h"
+
+namespace tunica::shell {
+
+namespace {
+
+constexpr const char* about = "Models of growing plant tissue, written in Lua.";
+
+constexpr const char* closing = R"(
+Commands:
+  tunica                       the prompt (in a terminal), or a script from standard input
+  tunica MODEL.lua D=2 ...     run a model, parameters changed; also by the name of a shipped model
+  tunica models                list the shipped models
+  tunica resume DIR            continue an interrupted run (--until T: beyond its end)
+  tunica rerun DIR             repeat a run in a new directory and compare the result
+
+Exit codes: 0 done, 1 error in the script, 2 command line, 3 numerical failure, 4 files cannot be written,
+  75 stopped by SIGUSR1 with a checkpoint, 129 hung up, 130 interrupted, 143 terminated.
+More: share/doc/runs.md.)";
+
+void add_run_options(CLI::App& app, Options& options) {
+  app.add_option("--out", options.out, "run directory (default runs/MODEL-N)")->type_name("DIR");
+  app.add_option("--until", options.until, "model time at which the run ends")->type_name("T");
+  app.add_flag_callback(
+      "--frames", [&] { options.frames = true; }, "write the pictures of the model's views (default)");
+  app.add_flag_callback(
+      "--no-frames", [&] { options.frames = false; }, "write no pictures");
+  app.add_flag("--movie", options.movie, "make movie.mp4 of the frames (with ffmpeg)");
+  app.add_option("--checkpoint", options.checkpoint, "seconds between checkpoints (default 60)")->type_name("SECONDS");
+  app.add_flag("--json", options.json, "results as one JSON object");
+  app.add_flag("-q,--quiet", options.quiet, "no progress, no notes");
+}
+
+/// Whole numbers that a Lua number and JSON hold exactly.
+uint64_t read_seed(const std::string& text) {
+  uint64_t seed = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (error != std::errc() || end != text.data() + text.size() || seed > (uint64_t{1} << 53))
+    throw UsageError{fmt::format("--seed: expected a whole number from 0 to 2^53, got '{}'", text)};
+  return seed;
+}
+
+void add_script_options(CLI::App& app, Options& options) {
+  app.add_option_function<std::string>(
+         "--seed", [&](const std::string& text) { options.seed = read_seed(text); },
+         "seed of all random numbers (default 1)")
+      ->type_name("N");
+  app.add_option("-e", options.code, "run this Lua code (before the script)")
+      ->type_name("CODE")
+      ->expected(1)
+      ->take_all();
+  app.add_flag("-i", options.interactive, "prompt after the script; a model is kept in the variable `model`");
+  app.add_flag_callback(
+      "--version", [&] { options.command = Options::Command::version; }, "versions, also with --json");
+  app.add_option("script", options.script, "script, name of a shipped model, or - for standard input")
+      ->type_name("MODEL");
+  app.add_option("arguments", options.arguments, "parameters of the model: key=value")->type_name("");
+}
+
+/// "--otu" is unknown; did you mean '--out'?
+std::string about_unknown(const CLI::App& app, const std::string& given) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const auto& name : option->get_lnames()) names.push_back("--" + name);
+    for (const auto& name : option->get_fnames()) names.push_back("--" + name);
+  }
+  std::string bare = given.substr(0, given.find('='));
+  return fmt::format("unknown option '{}'{}; `tunica --help` lists them", bare, did_you_mean(bare, names));
+}
+
+/// True if it parsed; false if help was asked for.
+bool parse(CLI::App& app, int argc, char** argv) {
+  app.allow_extras();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    fmt::print("{}", app.help());
+    return false;
+  } catch (const CLI::ParseError& error) {
+    throw UsageError{error.what()};
+  }
+  for (const auto& extra : app.remaining()) {
+    if (extra.size() > 1 && extra[0] == '-') throw UsageError{about_unknown(app, extra)};
+    throw UsageError{fmt::format("unexpected argument '{}'", extra)};
+  }
+  return true;
+}
+
+void check(const Options& options) {
+  if (options.until && !(std::isfinite(*options.until) && *options.until >= 0))
+    throw UsageError{fmt::format("--until: expected a time from 0 on, got {}", *options.until)};
+  if (!(options.checkpoint > 0)) throw UsageError{"--checkpoint: expected a number of seconds above 0"};
+  if (options.movie && options.frames == false) throw UsageError{"--movie needs frames; leave out --no-frames"};
+}
+
+}  // namespace
+
+std::optional<Options> read_options(int argc, char** argv) {
+  Options options;
+  CLI::App app(about, "tunica");
+  app.get_formatter()->column_width(34);
+  const std::string first = argc > 1 ? argv[1] : "";
+  if (first == "models") {
+    options.command = Options::Command::models;
+    app.add_flag("--json", options.json, "as one JSON object");
+    return parse(app, argc - 1, argv + 1) ? std::optional(options) : std::nullopt;
+  }
+  add_run_options(app, options);
+  if (first == "resume" || first == "rerun") {
+    options.command = first == "resume" ? Options::Command::resume : Options::Command::rerun;
+    app.add_option("directory", options.directory, "run directory")->type_name("DIR")->required();
+    if (!parse(app, argc - 1, argv + 1)) return std::nullopt;
+  } else {
+    add_script_options(app, options);
+    app.footer(closing);
+    if (!parse(app, argc, argv)) return std::nullopt;
+  }
+  check(options);
+  return options;
+}
+
+}  // namespace tunica::shell

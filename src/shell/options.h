@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tunica::shell {
+
+/// What the command line asks for.
+struct Options {
+  enum class Command { script, models, resume, rerun, version };
+  Command command = Command::script;
+  std::string script;                  ///< path, name of a shipped model, "-" (standard input), or ""
+  std::vector<std::string> arguments;  ///< after the script: key=value for a model, anything for a plain script
+  std::vector<std::string> code;       ///< -e
+  std::string directory;               ///< of resume and rerun
+  std::string out;                     ///< run directory; "" = the next free one under runs/
+  std::optional<double> until;
+  std::optional<uint64_t> seed;
+  std::optional<bool> frames;
+  bool movie = false, json = false, interactive = false, quiet = false;
+  double checkpoint = 60;  ///< seconds of wall clock between checkpoints
+};
+
+/// Thrown for what is wrong with the command line: exit code 2.
+struct UsageError {
+  std::string message;
+};
+
+/// Reads the command line. Returns nothing if it was --help, which has then been printed. Errors: UsageError.
+std::optional<Options> read_options(int argc, char** argv);
+
+}  // namespace tunica::shell

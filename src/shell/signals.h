@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lua.hpp>
+
+namespace tunica::shell {
+
+/// For as long as it lives, SIGINT, SIGTERM, SIGHUP and SIGUSR1 stop what Lua runs on this state, in two stages: the
+/// cancel flag at once, so that kernel loops and the model's own loop stop between consistent states; and after 100 ms,
+/// for Lua code that does not look at the flag, a hook that raises "interrupted" at every instruction until `calm`, so
+/// that no pcall of a script can swallow it. A second signal ends the program at once. One at a time.
+class Interrupts {
+ public:
+  explicit Interrupts(lua_State* L);
+  ~Interrupts();
+  Interrupts(const Interrupts&) = delete;
+  Interrupts& operator=(const Interrupts&) = delete;
+
+  /// The number of the signal that came since the last `calm`, or 0.
+  int signal() const;
+
+  /// Takes the hook off and clears the flag; a signal from now on counts as the first again if `forget`.
+  void calm(bool forget);
+
+  /// At the prompt a signal only ends the line that is being typed: no hook, and a second one does not end the program.
+  void at_prompt(bool waiting);
+};
+
+}  // namespace tunica::shell

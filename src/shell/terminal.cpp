@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "shell/terminal.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace tunica::shell {
+
+namespace {
+
+void say(const char* colour, std::string_view kind, std::string_view text) {
+  const char* no_colour = std::getenv("NO_COLOR");
+  const bool coloured = error_is_terminal() && !(no_colour && *no_colour);
+  std::fflush(stdout);  // so that both streams keep their order on a terminal
+  fmt::print(stderr, "tunica: {}{}{}{}\n", coloured ? colour : "", kind, coloured ? "\033[0m" : "", text);
+}
+
+}  // namespace
+
+bool error_is_terminal() {
+  const char* terminal = std::getenv("TERM");
+  return isatty(STDERR_FILENO) && terminal && std::strcmp(terminal, "dumb") != 0;
+}
+
+void say_error(std::string_view text) { say("\033[1;31m", "error: ", text); }
+void say_warning(std::string_view text) { say("\033[33m", "warning: ", text); }
+void say_note(std::string_view text) { say("", "", text); }
+
+}  // namespace tunica::shell

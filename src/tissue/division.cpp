@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: MIT
+#include "tissue/division.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <queue>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "tissue/order.h"
+#include "tissue/polygon.h"
+#include "tissue/topology.h"
+#include "tissue/validity.h"
+
+namespace tunica {
+
+namespace {
+
+/// The mother, as division sees her: sides, where they start, and the place of the wall's ends among them.
+struct Mother {
+  const Tissue& tissue;
+  Index cell;
+  std::vector<Index> sides;
+  std::vector<Vec3> corners;
+
+  Mother(const Tissue& t, Index c) : tissue(t), cell(c), corners(t.polygon(c)) {
+    const Index first = t.first_side(c);
+    Index side = first;
+    do sides.push_back(side);
+    while ((side = t.next(side)) != first);
+  }
+  size_t size() const { return sides.size(); }
+  size_t after(size_t i) const { return (i + 1) % size(); }
+  size_t before(size_t i) const { return (i + size() - 1) % size(); }
+  double length(size_t i) const { return (corners[after(i)] - corners[i]).norm(); }
+  Vec3 point(size_t i, double at) const { return corners[i] + at * (corners[after(i)] - corners[i]); }
+  bool walls_meet_at(size_t i) const { return degree(tissue, tissue.start(sides[i])) > 2; }
+};
+
+struct End {
+  size_t side;  ///< number in the mother's cycle
+  double at;    ///< fraction of it
+};
+
+/// A place found by walking `distance` along the outline from the start of a side.
+End walk(const Mother& mother, size_t from, double distance) {
+  for (size_t steps = 0; steps < mother.size() && distance > mother.length(from); ++steps) {
+    distance -= mother.length(from);
+    from = mother.after(from);
+  }
+  return {from, std::clamp(distance / mother.length(from), 0., 1.)};
+}
+
+/// Keeps an end away from where walls meet. Along a traced wall that is measured over the points that trace it; then
+/// the end keeps clear of the nearest of these points too, which may be corners.
+End displace(const Mother& mother, End end, double gap) {
+  size_t first = end.side;
+  double behind = end.at * mother.length(end.side), whole = mother.length(end.side);
+  size_t turns = 0;
+  for (; !mother.walls_meet_at(first) && turns < mother.size(); ++turns) {
+    first = mother.before(first);
+    behind += mother.length(first);
+    whole += mother.length(first);
+  }
+  if (turns < mother.size()) {
+    for (size_t last = mother.after(end.side); !mother.walls_meet_at(last); last = mother.after(last))
+      whole += mother.length(last);
+    const double keep = std::min(gap, .45 * whole);
+    if (behind < keep || behind > whole - keep) end = walk(mother, first, std::clamp(behind, keep, whole - keep));
+  }
+  // Even with no gap asked for, a new wall starts on a wall and not in a junction.
+  const double keep = std::clamp(gap / mother.length(end.side), 1e-3, .45);
+  end.at = std::clamp(end.at, keep, 1 - keep);
+  return end;
+}
+
+/// What a division would make: where the wall's ends lie, and the polygons of the cells it touches.
+struct Plan {
+  End a, b;
+  Vec3 at_a, at_b;
+  std::vector<Vec3> piece_a, piece_b;  ///< of the mother: from end a counter-clockwise to end b, and from b to a
+};
+
+std::vector<Vec3> piece(const Mother& mother, const End& from, const Vec3& start, const End& to, const Vec3& stop) {
+  std::vector<Vec3> points{start};
+  for (size_t i = from.side; i != to.side;) points.push_back(mother.corners[i = mother.after(i)]);
+  points.push_back(stop);
+  return points;
+}
+
+bool on_border(const Mother& mother, const End& end) { return mother.tissue.opposite(mother.sides[end.side]) == none; }
+
+Plan make_plan(const Mother& mother, End a, End b, double gap, double pinch, const Surface* surface) {
+  Plan plan;
+  plan.a = displace(mother, a, gap);
+  plan.b = displace(mother, b, gap);
+  const auto onto = [&](const Vec3& p) { return surface ? surface->closest(p) : p; };
+  const Vec3 p = onto(mother.point(plan.a.side, plan.a.at)), q = onto(mother.point(plan.b.side, plan.b.at));
+  plan.at_a = on_border(mother, plan.a) ? p : onto(p + pinch * (q - p));
+  plan.at_b = on_border(mother, plan.b) ? q : onto(q + pinch * (p - q));
+  plan.piece_a = piece(mother, plan.a, plan.at_a, plan.b, plan.at_b);
+  plan.piece_b = piece(mother, plan.b, plan.at_b, plan.a, plan.at_a);
+  return plan;
+}
+
+/// The polygon of a neighbour with the new junctions put in.
+std::vector<Vec3> changed(const Tissue& tissue, Index cell, const Mother& mother, const Plan& plan) {
+  std::vector<Vec3> points;
+  const Index first = tissue.first_side(cell);
+  Index side = first;
+  do {
+    points.push_back(tissue.position(tissue.start(side)));
+    if (tissue.opposite(side) == mother.sides[plan.a.side]) points.push_back(plan.at_a);
+    if (tissue.opposite(side) == mother.sides[plan.b.side]) points.push_back(plan.at_b);
+    side = tissue.next(side);
+  } while (side != first);
+  return points;
+}
+
+bool is_possible(const Mother& mother, const Plan& plan) {
+  if (plan.a.side == plan.b.side) return false;
+  const Vec3 outward = Frame(mother.corners).normal;
+  for (const auto* daughter : {&plan.piece_a, &plan.piece_b})
+    if (!is_possible_cell(*daughter) || !(Frame(*daughter).normal.dot(outward) > 0)) return false;
+  for (const End& end : {plan.a, plan.b}) {
+    const Index neighbour = mother.tissue.neighbour(mother.sides[end.side]);
+    if (neighbour != none && !is_possible_cell(changed(mother.tissue, neighbour, mother, plan))) return false;
+  }
+  return true;
+}
+
+End end_of(const Mother& mother, Index side, double at) {
+  const auto found = std::find(mother.sides.begin(), mother.sides.end(), side);
+  if (found == mother.sides.end() || !(at >= 0 && at <= 1))
+    fail("the dividing wall does not end on a wall of cell {}", mother.tissue.id(Kind::cell, mother.cell));
+  return {static_cast<size_t>(found - mother.sides.begin()), at};
+}
+
+Plan find_plan(const Mother& mother, const Cut& cut, const DivisionSettings& settings, const Surface* surface) {
+  const End a = end_of(mother, cut.side_a, cut.at_a), b = end_of(mother, cut.side_b, cut.at_b);
+  const double relative = settings.gap_fraction * std::sqrt(mother.tissue.area(mother.cell));
+  const double gap = settings.gap >= 0 ? settings.gap : relative;
+  const std::pair<double, double> tries[] = {{gap, settings.pinch}, {gap, 0}, {gap / 4, 0}, {0, 0}};
+  for (const auto& [try_gap, try_pinch] : tries) {
+    Plan plan = make_plan(mother, a, b, try_gap, try_pinch, surface);
+    if (is_possible(mother, plan)) return plan;
+  }
+  fail("cell {} cannot be divided there: a daughter or a neighbour would have no area or cross itself",
+       mother.tissue.id(Kind::cell, mother.cell));
+}
+
+/// What the parts of a wall and of its sides get when a junction at `p` splits it.
+std::array<Parts, 3> legacy_of_wall(Tissue& tissue, Index wall, const Vec3& p) {
+  const Index side0 = tissue.wall_side(wall, 0), side1 = tissue.wall_side(wall, 1);
+  const double first = (p - tissue.position(tissue.start(side0))).norm();
+  const double second = (p - tissue.position(tissue.end(side0))).norm();
+  const double share = first / (first + second);
+  std::array<Parts, 3> legacy{
+      parts_of(tissue, Kind::wall, wall, share), parts_of(tissue, Kind::side, side0, share), {}};
+  if (side1 != none) legacy[2] = parts_of(tissue, Kind::side, side1, 1 - share);
+  return legacy;
+}
+
+void check(const DivisionSettings& settings) {
+  if (!std::isfinite(settings.gap) || !(settings.gap_fraction >= 0 && settings.gap_fraction <= 1))
+    fail("the gap of a dividing wall must be a length and its fraction between 0 and 1, not {} and {}", settings.gap,
+         settings.gap_fraction);
+  if (!(settings.pinch >= 0 && settings.pinch < .5))
+    fail("pinch must be at least 0 and below 0.5, not {}", settings.pinch);
+}
+
+/// A division, and the cells across the ends of its wall (or none).
+struct Outcome {
+  Division division;
+  Index across_a, across_b;
+};
+
+Outcome perform(Tissue& tissue, const Mother& mother, const Plan& plan) {
+  // All that can fail comes first: then the structure changes.
+  const Index side_a = mother.sides[plan.a.side], side_b = mother.sides[plan.b.side];
+  const Index wall_a = tissue.wall_of(side_a), wall_b = tissue.wall_of(side_b);
+  const Index across_a = tissue.neighbour(side_a), across_b = tissue.neighbour(side_b);
+  // split_cell calls the daughter that keeps first_side the first: of the pieces a-b and b-a, the one it is in. Side a
+  // itself ends up half in each; its first half, with its number, is in piece b-a.
+  bool first_is_a = false;
+  for (size_t i = plan.a.side; i != plan.b.side;) {
+    i = mother.after(i);
+    first_is_a = first_is_a || i == 0;
+  }
+  const double area_a = measure(plan.piece_a).area, area_b = measure(plan.piece_b).area;
+  const double share = (first_is_a ? area_a : area_b) / (area_a + area_b);
+  const auto of_a = legacy_of_wall(tissue, wall_a, plan.at_a), of_b = legacy_of_wall(tissue, wall_b, plan.at_b);
+  const Parts of_cell = parts_of(tissue, Kind::cell, mother.cell, share);
+  TissueEditor editor(tissue);
+  editor.require_room(Kind::side, 10);
+  editor.split_wall(wall_a, plan.at_a, of_a);
+  editor.split_wall(wall_b, plan.at_b, of_b);
+  const Index wall = editor.split_cell(tissue.next(side_a), tissue.next(side_b), of_cell);
+  const Division division{mother.cell, tissue.cell_of(tissue.wall_side(wall, 1)), wall};
+  std::vector<Index> touched{division.first, division.second};
+  for (const Index cell : {across_a, across_b})
+    if (cell != none) touched.push_back(cell);
+  for (const Index cell : touched) tissue.refresh_geometry(cell);
+#ifdef TUNICA_VALIDATE
+  validate_near(tissue, touched);
+#endif
+  return {division, across_a, across_b};
+}
+
+Outcome divide_one(Tissue& tissue, Index cell, const DivisionRule& rule, const DivisionSettings& settings,
+                   const Surface* surface) {
+  const Mother mother(tissue, cell);
+  Plan plan;
+  {
+    const LockWhile rule_and_surface_may_be_scripts(tissue);
+    plan = find_plan(mother, rule(tissue, cell), settings, surface);
+  }
+  return perform(tissue, mother, plan);
+}
+
+void check_divisible(const Tissue& tissue, const DivisionSettings& settings) {
+  if (tissue.locked()) fail("the structure of a tissue cannot change while rules run");
+  if (!tissue.has_geometry()) fail("cells without geometry (line, ring, grid, cylinder) cannot be divided by a wall");
+  check(settings);
+}
+
+}  // namespace
+
+Division divide(Tissue& tissue, Index cell, const Cut& cut, const DivisionSettings& settings, const Surface* surface) {
+  return divide(
+      tissue, cell, [&](const Tissue&, Index) { return cut; }, settings, surface);
+}
+
+Division divide(Tissue& tissue, Index cell, const DivisionRule& rule, const DivisionSettings& settings,
+                const Surface* surface) {
+  check_divisible(tissue, settings);
+  return divide_one(tissue, cell, rule, settings, surface).division;
+}
+
+double threshold_of(const Tissue& tissue, Index cell, const Threshold& threshold) {
+  const double u =
+      2 * uniform({.seed = tissue.seed(), .purpose = purpose("division"), .cell = tissue.id(Kind::cell, cell)}) - 1;
+  return threshold.area * (1 + threshold.variation * u);
+}
+
+namespace {
+
+/// Whether a growing tissue has passed one of the sizes 1000, 1500, 2250, ...: often enough to keep it in order, and a
+/// matter of its size alone, so that a stopped and resumed run does the same.
+bool passed_a_mark(Index before, Index now) {
+  Index mark = 1000;
+  while (mark <= before) mark += mark / 2;
+  return mark <= now;
+}
+
+}  // namespace
+
+int64_t divide_above(Tissue& tissue, const Threshold& threshold, const DivisionRule& rule,
+                     const DivisionSettings& settings, const Surface* surface, const CancelFlag* cancel) {
+  check_divisible(tissue, settings);
+  if (!(threshold.area > 0) || !std::isfinite(threshold.area))
+    fail("the area at which cells divide must be positive, not {}", threshold.area);
+  if (!(threshold.variation >= 0 && threshold.variation < 1))
+    fail("the variation of the threshold must be at least 0 and below 1, not {}", threshold.variation);
+  const double least = threshold.area * (1 - threshold.variation);
+  std::priority_queue<Id, std::vector<Id>, std::greater<>> due;
+  const auto consider = [&](Index cell) {
+    if (cell != none && tissue.area(cell) > least && tissue.area(cell) > threshold_of(tissue, cell, threshold))
+      due.push(tissue.id(Kind::cell, cell));
+  };
+  for (Index cell = 0; cell < tissue.cells(); ++cell) consider(cell);
+  const Index before = tissue.cells();
+  int64_t divisions = 0;
+  while (!due.empty() && (threshold.most_cells < 0 || tissue.cells() < threshold.most_cells)) {
+    poll(cancel);
+    const Index cell = tissue.find(Kind::cell, due.top());
+    due.pop();
+    // A neighbour's pinching may have changed the cell since; and it may be in the queue twice.
+    if (cell == none || !(tissue.area(cell) > threshold_of(tissue, cell, threshold))) continue;
+    const Outcome outcome = divide_one(tissue, cell, rule, settings, surface);
+    ++divisions;
+    for (const Index touched : {outcome.division.first, outcome.division.second, outcome.across_a, outcome.across_b})
+      consider(touched);
+  }
+  // Daughters are appended, so neighbours drift apart in memory, and everything that walks the tissue would slow down.
+  if (passed_a_mark(before, tissue.cells())) renumber_along_curve(tissue);
+  return divisions;
+}
+
+}  // namespace tunica

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "tissue/surface.h"
+
+#include <cmath>
+
+#include "base/error.h"
+#include "tissue/polygon.h"
+#include "tissue/topology.h"
+
+namespace tunica {
+
+namespace {
+
+/// What is wrong with a cell after the move, or nullptr.
+const char* problem_of(const Tissue& tissue, Index cell, const std::vector<Vec3>& polygon, const Vec3& outward) {
+  for (const Vec3& p : polygon)
+    if (!p.allFinite()) return "would have a junction at no finite place";
+  const Frame frame(polygon);
+  const std::vector<Vec2> flat = frame.flat(polygon);
+  if (!(tissue.area(cell) > 0) || !(signed_area(flat) > 0)) return "would have no positive area";
+  if (!(frame.normal.dot(outward) > 0)) return "would turn over";
+  if (!is_simple(flat)) return "would cross itself";
+  return nullptr;
+}
+
+void set_all(Tissue& tissue, const std::vector<Vec3>& positions) {
+  for (Index j = 0; j < tissue.junctions(); ++j) tissue.set_position(j, positions[static_cast<size_t>(j)]);
+  tissue.refresh_geometry();
+}
+
+}  // namespace
+
+void move_junctions(Tissue& tissue, const std::vector<Vec3>& positions, const Surface* surface) {
+  if (tissue.locked()) fail("a tissue cannot move while rules run");
+  if (!tissue.has_geometry()) fail("a tissue without geometry (line, ring, grid, cylinder) cannot be moved");
+  if (positions.size() != static_cast<size_t>(tissue.junctions()))
+    fail("{} positions for {} junctions", positions.size(), tissue.junctions());
+  std::vector<Vec3> before, facing;
+  for (Index j = 0; j < tissue.junctions(); ++j) before.push_back(tissue.position(j));
+  for (Index c = 0; c < tissue.cells() && !surface; ++c) facing.push_back(tissue.normal(c));
+  set_all(tissue, positions);
+  for (Index c = 0; c < tissue.cells(); ++c) {
+    const Vec3 outward = surface ? surface->normal(tissue.centroid(c)) : facing[static_cast<size_t>(c)];
+    const char* problem = problem_of(tissue, c, tissue.polygon(c), outward);
+    if (!problem) continue;
+    const Vec3 place = tissue.centroid(c);
+    set_all(tissue, before);
+    fail("this movement is not possible: cell {} {} (near {:.4g}, {:.4g}, {:.4g}); the tissue stays as it was",
+         tissue.id(Kind::cell, c), problem, place.x(), place.y(), place.z());
+  }
+}
+
+void grow(Tissue& tissue, const Surface& surface, double t, double dt) {
+  if (!std::isfinite(t) || !std::isfinite(dt))
+    fail("time and time step of growth must be finite, not {} and {}", t, dt);
+  if (!tissue.has_geometry()) fail("a tissue without geometry (line, ring, grid, cylinder) cannot grow by moving");
+  if (tissue.locked()) fail("a tissue cannot grow while rules run");
+  std::vector<Vec3> positions;
+  positions.reserve(static_cast<size_t>(tissue.junctions()));
+  {
+    const LockWhile surface_may_be_a_script(tissue);
+    for (Index j = 0; j < tissue.junctions(); ++j) positions.push_back(surface.advance(tissue.position(j), t, dt));
+  }
+  move_junctions(tissue, positions, &surface);
+}
+
+}  // namespace tunica

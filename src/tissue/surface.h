@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "tissue/tissue.h"
+
+namespace tunica {
+
+/// A growing surface that a tissue lies on: the two operations of thesis 10.2, and the outward normal.
+class Surface {
+ public:
+  virtual ~Surface() = default;
+  /// Where a point that is on the surface at time t will be at t + dt.
+  virtual Vec3 advance(const Vec3& p, double t, double dt) const = 0;
+  /// The point of the surface closest to a point in space.
+  virtual Vec3 closest(const Vec3& p) const = 0;
+  /// Outward unit normal at a point of the surface.
+  virtual Vec3 normal(const Vec3& p) const = 0;
+};
+
+/// Moves every junction along with the surface and measures the tissue anew. Checks each cell: its area is positive,
+/// its polygon does not cross itself, it is not turned over. If anything fails the tissue stays as it was. Errors: dt
+/// not finite; a cell that would be impossible (named); what the surface throws; the tissue is locked.
+void grow(Tissue& tissue, const Surface& surface, double t, double dt);
+
+/// Puts the junctions at these positions (one each), with the checks and guarantees of grow().
+/// @param surface  for the outward side; nullptr: a cell may not turn over against where it faces now
+void move_junctions(Tissue& tissue, const std::vector<Vec3>& positions, const Surface* surface = nullptr);
+
+}  // namespace tunica

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "view/terminal.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "view/png.h"
+
+namespace tunica {
+namespace {
+
+using Environment = std::map<std::string, std::string>;
+
+Picture gradient(int width, int height) {
+  Picture p{width, height, {}};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (const int v : {x * 255 / width, y * 255 / height, 90, 255}) p.rgba.push_back(static_cast<uint8_t>(v));
+  return p;
+}
+
+TEST(Terminal, ChoosesTheProtocol) {
+  struct Case {
+    Environment environment;
+    const char* reply;
+    ImageProtocol expected;
+  };
+  const std::string kitty = "\033_Gi=31;OK\033\\\033[?62;c", sixel = "\033[?62;4;22c", plain = "\033[?62;22c";
+  const Case cases[] = {
+      {{{"TERM", "xterm-256color"}}, "", ImageProtocol::blocks},
+      {{{"TERM", "xterm-256color"}}, kitty.c_str(), ImageProtocol::kitty},
+      {{{"TERM", "xterm-256color"}}, sixel.c_str(), ImageProtocol::sixel},
+      {{{"TERM", "xterm-256color"}}, plain.c_str(), ImageProtocol::blocks},
+      {{{"TERM", "xterm"}}, "\033[?4c", ImageProtocol::blocks},  // a device class, not the graphics attribute
+      {{{"TERM", "xterm-kitty"}}, "", ImageProtocol::kitty},
+      {{{"TERM", "xterm-256color"}, {"TERM_PROGRAM", "iTerm.app"}}, "", ImageProtocol::iterm},
+      {{{"TERM", "xterm-256color"}, {"LC_TERMINAL", "iTerm2"}}, "", ImageProtocol::iterm},
+      {{{"TERM", "xterm-256color"}, {"TERM_PROGRAM", "WezTerm"}}, "", ImageProtocol::sixel},
+      {{{"TERM", "foot"}}, "", ImageProtocol::sixel},
+      {{{"TERM", "tmux-256color"}, {"KITTY_WINDOW_ID", "1"}}, "", ImageProtocol::blocks},
+      {{{"TERM", "screen"}}, "", ImageProtocol::blocks},
+      {{{"TERM", "tmux-256color"}}, sixel.c_str(), ImageProtocol::sixel},
+      {{{"TERM", "linux"}}, "", ImageProtocol::blocks},
+      {{{"TERM", "dumb"}}, kitty.c_str(), ImageProtocol::off},
+      {{{"TERM", "vt100"}}, "", ImageProtocol::off},
+      {{}, "", ImageProtocol::off},
+      {{{"TERM", "xterm-256color"}, {"NO_COLOR", "1"}}, "", ImageProtocol::off},
+      {{{"TERM", "xterm-kitty"}, {"NO_COLOR", "1"}}, "", ImageProtocol::kitty},
+      {{{"TERM", "dumb"}, {"TUNICA_IMAGES", "sixel"}}, "", ImageProtocol::sixel},
+      {{{"TERM", "xterm-kitty"}, {"TUNICA_IMAGES", "none"}}, "", ImageProtocol::off},
+  };
+  for (const Case& c : cases) {
+    const Terminal terminal{true, c.environment, c.reply};
+    EXPECT_EQ(choose_protocol(terminal), c.expected)
+        << (c.environment.count("TERM") ? c.environment.at("TERM") : "") << ": " << name_of(choose_protocol(terminal));
+  }
+}
+
+TEST(Terminal, ShowsNothingWhereThereIsNoTerminal) {
+  EXPECT_EQ(choose_protocol({false, {{"TERM", "xterm-kitty"}}, ""}), ImageProtocol::off);
+  EXPECT_EQ(terminal_picture(gradient(20, 20), ImageProtocol::off, {}, 80, 24), "");
+}
+
+TEST(Terminal, RefusesAnUnknownOverride) {
+  EXPECT_THROW(choose_protocol({true, {{"TUNICA_IMAGES", "kity"}}, ""}), Error);
+  EXPECT_THROW(terminal_picture(gradient(20, 20), ImageProtocol::kitty, {}, 0, 24), Error);
+}
+
+/// What base64 stands for; unknown characters are left out.
+std::string decoded(const std::string& text) {
+  static const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  uint32_t bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    if (digits.find(c) == std::string::npos) continue;
+    bits = (bits << 6) | static_cast<uint32_t>(digits.find(c));
+    if ((count += 6) >= 8) bytes += static_cast<char>((bits >> (count -= 8)) & 255);
+  }
+  return bytes;
+}
+
+TEST(Terminal, KittyGetsThePngInPieces) {
+  Picture p = gradient(300, 200);
+  for (size_t i = 0; i < p.rgba.size(); i += 4) p.rgba[i] = static_cast<uint8_t>(i * 2654435761u >> 13);
+  const std::string text = terminal_picture(p, ImageProtocol::kitty, {}, 80, 24);
+  EXPECT_EQ(text.rfind("\033_Ga=T,f=100,q=2,c=72,r=24,m=1;", 0), 0u) << text.substr(0, 40);
+  std::string data;
+  size_t at = 0, pieces = 0;
+  while ((at = text.find("\033_G", at)) != std::string::npos) {
+    const size_t start = text.find(';', at) + 1, end = text.find("\033\\", start);
+    EXPECT_LE(end - start, 4096u);
+    const bool more = text.substr(at, start - at).find("m=1") != std::string::npos;
+    EXPECT_EQ(more, text.find("\033_G", end) != std::string::npos);
+    data += text.substr(start, end - start);
+    at = end;
+    ++pieces;
+  }
+  EXPECT_GT(pieces, 1u);
+  EXPECT_EQ(decoded(data), encode_png(p));
+}
+
+TEST(Terminal, ItermGetsThePng) {
+  const Picture p = gradient(30, 20);
+  const std::string text = terminal_picture(p, ImageProtocol::iterm, {}, 80, 24), png = encode_png(p);
+  EXPECT_EQ(text.rfind("\033]1337;File=inline=1;size=" + std::to_string(png.size()) + ";", 0), 0u);
+  const size_t start = text.find(':') + 1;
+  EXPECT_EQ(decoded(text.substr(start, text.find('\a') - start)), png);
+}
+
+TEST(Terminal, SixelsAndBlocksAreWhatTheySay) {
+  const Picture p = gradient(100, 100);
+  const std::string sixels = terminal_picture(p, ImageProtocol::sixel, {}, 20, 20);
+  EXPECT_EQ(sixels.find("\033P"), sixels.find_first_of("\033"));
+  EXPECT_NE(sixels.find("\033\\"), std::string::npos);
+
+  const Terminal rich{true, {{"TERM", "xterm-256color"}, {"COLORTERM", "truecolor"}, {"LANG", "en_GB.UTF-8"}}, ""};
+  const std::string blocks = terminal_picture(p, ImageProtocol::blocks, rich, 20, 20);
+  EXPECT_EQ(std::count(blocks.begin(), blocks.end(), '\n'), 10);
+  EXPECT_NE(blocks.find("38;2;"), std::string::npos);
+
+  const Terminal some{true, {{"TERM", "screen-256color"}, {"COLORTERM", "truecolor"}, {"LANG", "C"}}, ""};
+  const std::string poor = terminal_picture(p, ImageProtocol::blocks, some, 20, 20);
+  EXPECT_EQ(poor.find("38;2;"), std::string::npos);
+  for (const char c : poor) EXPECT_LT(static_cast<unsigned char>(c), 128);
+}
+
+}  // namespace
+}  // namespace tunica
