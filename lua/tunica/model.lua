@@ -264,7 +264,7 @@ local function test_conditions(my, now)
 end
 
 local function step_towards(my, target, pause, deadline)
-  if #my.conditions > 0 then pause = -math.huge end
+  if #my.conditions > 0 then pause = -1e300 end
   local seconds = deadline and math.max(0, deadline - core.now())
   local ok, status = pcall(core.advance, my.machine, values_of(my), target, pause, seconds)
   if not ok then

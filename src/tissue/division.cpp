@@ -246,11 +246,11 @@ double threshold_of(const Tissue& tissue, Index cell, const Threshold& threshold
 
 namespace {
 
-/// Whether a growing tissue has passed one of the sizes 1000, 1500, 2250, ...: often enough to keep it in order, and a
+/// Whether a growing tissue has passed one of the sizes 1000, 1250, 1562, ...: often enough to keep it in order, and a
 /// matter of its size alone, so that a stopped and resumed run does the same.
 bool passed_a_mark(Index before, Index now) {
   Index mark = 1000;
-  while (mark <= before) mark += mark / 2;
+  while (mark <= before) mark += mark / 4;
   return mark <= now;
 }
 

@@ -68,7 +68,10 @@ std::vector<Vec2> places(const Tissue& tissue) {
     return result;
   }
   Vec3 mean = Vec3::Zero();
-  for (Index c = 0; c < tissue.cells(); ++c) mean += tissue.area(c) * tissue.normal(c);
+  for (Index c = 0; c < tissue.cells(); ++c) {
+    // A cell in the plane, at z = 0, need not be asked.
+    mean += tissue.centroid(c).z() == 0 ? Vec3(0, 0, tissue.area(c)) : Vec3(tissue.area(c) * tissue.normal(c));
+  }
   const double norm = mean.norm();
   const Vec3 n = norm > 0 ? Vec3(mean / norm) : Vec3(Vec3::UnitZ());
   int least = 0;

@@ -8,11 +8,19 @@ namespace tunica {
 
 namespace {
 
-template <class Array>
-void permute(Array& values, const std::vector<Index>& order, size_t width = 1) {
-  const Array before = values;
+/// Puts `width` values per element into the new order, by way of `scratch`, which many columns may share.
+template <class T>
+void permute(T* values, const std::vector<Index>& order, std::vector<T>& scratch, size_t width = 1) {
+  scratch.resize(order.size() * width);
   for (size_t i = 0; i < order.size(); ++i)
-    for (size_t k = 0; k < width; ++k) values[i * width + k] = before[static_cast<size_t>(order[i]) * width + k];
+    for (size_t k = 0; k < width; ++k) scratch[i * width + k] = values[static_cast<size_t>(order[i]) * width + k];
+  std::copy(scratch.begin(), scratch.end(), values);
+}
+
+template <class T>
+void permute(std::vector<T>& values, const std::vector<Index>& order, size_t width = 1) {
+  std::vector<T> scratch;
+  permute(values.data(), order, scratch, width);
 }
 
 void rename(Index& reference, const std::vector<Index>& place) {
@@ -38,7 +46,8 @@ void TissueEditor::renumber(Kind kind, const std::vector<Index>& order) {
   auto& ids = t_.ids_[static_cast<int>(kind)];
   permute(ids, order);
   for (size_t i = 0; i < ids.size(); ++i) t_.index_of_[static_cast<int>(kind)][ids[i]] = static_cast<int64_t>(i);
-  for (const auto& column : t_.columns_[static_cast<int>(kind)]) permute(column->values, order);
+  std::vector<double> scratch;
+  for (const auto& column : t_.columns_[static_cast<int>(kind)]) permute(column->values.data(), order, scratch);
   switch (kind) {
     case Kind::cell:
       permute(t_.cell_side_, order);

@@ -109,7 +109,7 @@ void TissueEditor::link(Index side, Index following) {
 Index TissueEditor::add_cell() { return append(Kind::cell); }
 Index TissueEditor::add_wall() { return append(Kind::wall); }
 
-Index TissueEditor::add_junction(const Vec3& position) {
+Index TissueEditor::add_junction(Vec3 position) {
   const Index junction = append(Kind::junction);
   t_.position_[junction] = position;
   return junction;

@@ -40,7 +40,7 @@ class TissueEditor {
 
   // === Building
   Index add_cell();
-  Index add_junction(const Vec3& position);
+  Index add_junction(Vec3 position);  ///< by value: it may be a position of this tissue
   Index add_wall();
   /// Adds a side to a cell's cycle before the side `before` (none: before first_side, which is the end of the cycle),
   /// and to the wall. With `lead`, the new side becomes the cell's first_side.
