@@ -247,7 +247,7 @@ local function fire_events(my, now)
       if not refreshed then refresh_derived(my) end
       refreshed = true
       e.fired = e.fired + 1
-      e.fn(now)
+      e.fn(time)
     end
   end
 end
@@ -280,19 +280,20 @@ local function advance(model, o)
   prepare(my)
   my.failure = nil
   local deadline = o.seconds and core.now() + o.seconds
-  local slack = 1e-9 * my.dt
+  local slack, stepped = 1e-9 * my.dt, false
   while true do
     local now = model.time
     fire_events(my, now)
     prepare(my)
-    if o.pause and now >= o.pause - slack and now < o.to then return "paused" end
-    if now >= o.to then break end
+    if now >= o.to - slack then break end
+    if o.pause and stepped and now >= o.pause - slack then return "paused" end
     if core.cancelled() then return "interrupted" end
     local status = step_towards(my, math.max(next_event(my, o.to), now), o.pause, deadline)
+    stepped = true
     if status == "interrupted" then return status end
     test_conditions(my, model.time)
     if status == "out of time" then return status end
-    if deadline and core.now() >= deadline and model.time < o.to then
+    if deadline and core.now() >= deadline and model.time < o.to - slack then
       return "out of time"
     end
   end

@@ -25,8 +25,8 @@ class Tracer {
  public:
   enum class View : uint8_t { here, own, across };  ///< a cell: of a cell rule; of a side; across a side
 
-  Tracer(std::shared_ptr<Equations> equations, std::shared_ptr<Tissue> tissue)
-      : equations(std::move(equations)), tissue(std::move(tissue)) {}
+  Tracer(std::shared_ptr<Equations> e, std::shared_ptr<Tissue> t)
+      : equations(std::move(e)), tissue(std::move(t)) {}
 
   /// Calls the function on top of the stack (popped) with symbols. Errors: ScriptError or Error with the reason.
   /// derive: f(c, t), or for sides f(s, t), for walls f(w, a, b, t);

@@ -18,16 +18,6 @@ Integrator::Integrator(std::shared_ptr<System> system, std::unique_ptr<Stepper> 
   if (!(dt > 0) || !std::isfinite(dt)) fail("dt must be a positive time step, not {}", dt);
 }
 
-void Integrator::begin(double target) {
-  if (open_ && target == target_) return;
-  start_ = time_;
-  target_ = target;
-  // A hair of slack, so that 50 steps of .01 fit into .5 in spite of rounding.
-  count_ = static_cast<uint64_t>(std::max(1.0, std::ceil((target - time_) / dt_ - 1e-9)));
-  done_ = 0;
-  open_ = true;
-}
-
 void Integrator::load_state(const std::vector<double>& parameters) {
   system_->prepare(parameters);
   const size_t size = system_->state_size();
@@ -39,7 +29,7 @@ void Integrator::load_state(const std::vector<double>& parameters) {
     const System::StateColumn& s = system_->state()[k];
     const double* first = y_.data() + s.offset;
     for (Index i = 0; i < s.count; ++i)
-      if (!std::isfinite(first[i])) refuse("not finite", k, i, first[i], time_, "it was so before the step; look at what set it");
+      if (!std::isfinite(first[i])) refuse("not finite", k, i, first[i], time(), "it was so before the step; look at what set it");
     const bool meant = std::find(signed_.begin(), signed_.end(), s.name) != signed_.end();
     watch_negative_[k] = !meant && std::none_of(first, first + s.count, [](double v) { return v < 0; });
   }
@@ -48,56 +38,50 @@ void Integrator::load_state(const std::vector<double>& parameters) {
 
 Integrator::Status Integrator::advance(double target, std::optional<double> pause, const std::function<bool()>& out_of_time,
                                        const CancelFlag* cancel, const std::vector<double>& parameters) {
-  if (target < time_) fail("cannot run backwards, from time {} to {}", time_, target);
-  if (target == time_) return Status::reached;
-  begin(target);
-  load_state(parameters);
   const double slack = 1e-9 * dt_;
-  Status status = Status::reached;
+  if (target < time() - slack) fail("cannot run backwards, from time {} to {}", time(), target);
+  if (target <= time() + slack) return Status::reached;
+  load_state(parameters);
   struct Unlock {
     Tissue& tissue;
     ~Unlock() { tissue.lock(false); }
   } unlock{system_->tissue()};
   system_->tissue().lock(true);
-  try {
-    while (done_ < count_) {
-      if (cancel && cancel->requested()) {
-        status = Status::interrupted;
-        break;
+  const auto run = [&] {
+    while (true) {
+      if (cancel && cancel->requested()) return Status::interrupted;
+      const double next = origin_ + static_cast<double>(index_ + 1) * dt_;
+      if (next > target + slack) {
+        step(target - time(), target);
+        origin_ = target;
+        index_ = 0;
+        return Status::reached;
       }
-      step();
-      if (done_ == count_) break;
-      if (pause && time_ >= *pause - slack) {
-        status = Status::paused;
-        break;
-      }
-      if (steps_ % clock_interval == 0 && out_of_time && out_of_time()) {
-        status = Status::out_of_time;
-        break;
-      }
+      step(dt_, next);
+      ++index_;
+      if (time() >= target - slack) return Status::reached;
+      if (pause && time() >= *pause - slack) return Status::paused;
+      if (steps_ % clock_interval == 0 && out_of_time && out_of_time()) return Status::out_of_time;
     }
+  };
+  Status status = Status::interrupted;
+  try {
+    status = run();
   } catch (const Cancelled&) {
-    status = Status::interrupted;
   } catch (...) {
     system_->write_state(y_.data());
     throw;
   }
   system_->write_state(y_.data());
-  if (done_ == count_) open_ = false;
   return status;
 }
 
-bool Integrator::step() {
-  const double h = (target_ - start_) / static_cast<double>(count_);
-  const double end = done_ + 1 == count_ ? target_ : start_ + static_cast<double>(done_ + 1) * h;
-  const std::vector<uint8_t>& flags = stepper_->step(*system_, time_, y_.data(), h, y_new_.data());
+void Integrator::step(double h, double end) {
+  const std::vector<uint8_t>& flags = stepper_->step(*system_, time(), y_.data(), h, y_new_.data());
   if (std::any_of(flags.begin(), flags.end(), [](uint8_t f) { return f != 0; })) check(flags, end);
   if (steps_ % watch_interval < watch_length) check_oscillation(end);
   std::swap(y_, y_new_);
-  ++done_;
   ++steps_;
-  time_ = end;
-  return true;
 }
 
 void Integrator::check(const std::vector<uint8_t>& flags, double time) {
@@ -114,7 +98,7 @@ void Integrator::check(const std::vector<uint8_t>& flags, double time) {
       for (Index i = 0; i < s.count; ++i)
         if (values[i] < -1e-9 * largest)
           refuse("negative", k, i, values[i], time,
-                 "a concentration cannot be; try a smaller dt. If it may be negative, declare it with signed = true");
+                 "a concentration cannot be; try a smaller dt. If it may be negative, list it in signed = { ... } of tunica.model");
     }
   }
 }
@@ -160,25 +144,17 @@ void Integrator::refuse(const char* kind, size_t column, Index element, double v
 }
 
 void Integrator::save(ByteWriter& out) const {
-  out.put(time_);
-  out.put(dt_);
+  out.put(origin_);
+  out.put(index_);
   out.put(steps_);
-  out.put(static_cast<uint8_t>(open_));
-  out.put(start_);
-  out.put(target_);
-  out.put(count_);
-  out.put(done_);
+  out.put(dt_);
 }
 
 void Integrator::load(ByteReader& in) {
-  time_ = in.get<double>();
-  dt_ = in.get<double>();
+  origin_ = in.get<double>();
+  index_ = in.get<uint64_t>();
   steps_ = in.get<uint64_t>();
-  open_ = in.get<uint8_t>() != 0;
-  start_ = in.get<double>();
-  target_ = in.get<double>();
-  count_ = in.get<uint64_t>();
-  done_ = in.get<uint64_t>();
+  dt_ = in.get<double>();
 }
 
 }  // namespace tunica

@@ -29,20 +29,18 @@ class StepFailed : public Error {
   Failure failure;
 };
 
-/// Takes fixed steps through time with one method, watching each. Between two targets (events) the steps are equal and at
-/// most `dt` long, so that the target is met exactly; where output is wanted, or how often a run is interrupted, changes no
-/// step.
+/// Takes fixed steps through time with one method, watching each. Steps lie on a grid of multiples of `dt`; a target (an
+/// event) off the grid is met by one shorter step, from which a new grid begins. Where output is wanted, or how often a run
+/// is interrupted at multiples of `dt`, changes no step.
 class Integrator {
  public:
   Integrator(std::shared_ptr<System> system, std::unique_ptr<Stepper> stepper, double dt);
 
-  double time() const { return time_; }
-  void set_time(double time) { time_ = time; open_ = false; }  ///< of the model's start; not while a segment is open
+  double time() const { return origin_ + static_cast<double>(index_) * dt_; }
   uint64_t steps() const { return steps_; }
   const Stepper& stepper() const { return *stepper_; }
   System& system() { return *system_; }
   double dt() const { return dt_; }
-  void set_dt(double dt) { dt_ = dt; }
 
   enum class Status { reached, paused, out_of_time, interrupted };
   /// Steps towards `target`. Pauses after the first step that ends at or after `pause`; returns when `out_of_time()` says so
@@ -58,9 +56,8 @@ class Integrator {
   void load(ByteReader& in);
 
  private:
-  void begin(double target);
   void load_state(const std::vector<double>& parameters);
-  bool step();
+  void step(double h, double end);
   void check(const std::vector<uint8_t>& flags, double time);
   void check_oscillation(double time);
   [[noreturn]] void refuse(const char* kind, size_t column, Index element, double value, double time, const std::string& advice);
@@ -68,12 +65,9 @@ class Integrator {
   std::shared_ptr<System> system_;
   std::unique_ptr<Stepper> stepper_;
   double dt_;
-  double time_ = 0;
+  double origin_ = 0;    ///< of the grid of steps
+  uint64_t index_ = 0;   ///< steps taken on it
   uint64_t steps_ = 0;
-  // the open segment: from `start_` to `target_` in `count_` equal steps, `done_` of them taken
-  bool open_ = false;
-  double start_ = 0, target_ = 0;
-  uint64_t count_ = 0, done_ = 0;
   AlignedBuffer y_, y_new_, before_;
   std::vector<std::string> signed_;
   std::vector<uint8_t> watch_negative_;

@@ -15,6 +15,11 @@
 #include "base/error.h"
 #include "view/render.h"
 
+#ifdef __SANITIZE_ADDRESS__
+/// Mesa keeps a few hundred bytes of each frame buffer until the process ends.
+extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa\n"; }
+#endif
+
 namespace tunica {
 namespace {
 

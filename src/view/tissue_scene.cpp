@@ -52,10 +52,11 @@ double nearly_largest(std::vector<double> values) {
   return *at;
 }
 
-/// Lines between cells: dark, but still to be seen upon cells that are nearly black.
+/// Lines between cells: dark, but still to be seen upon cells that are nearly black, and between two bands.
 Colour outline_for(const ViewSettings& s) {
   const bool dark = s.colour.given() && to_oklab(s.palette.colours.front()).l < 0.23;
-  return s.outline.value_or(dark ? Colour{.36f, .41f, .36f, 1} : Colour{.08f, .08f, .08f, 1});
+  const Colour on_dark = s.sides.given() ? Colour{.17f, .23f, .17f, 1} : Colour{.36f, .41f, .36f, 1};
+  return s.outline.value_or(dark ? on_dark : Colour{.08f, .08f, .08f, 1});
 }
 
 void add_legend(const ViewSettings& s, const Paint& paint, Scene& scene) {
