@@ -83,7 +83,11 @@ inline V operate(V a, V b, V c) {
 template <Code code, int mask>
 void elementwise(const Operands& o) {
   const V sa = broadcast(o.sa), sb = broadcast(o.sb), sc = broadcast(o.sc);
-  for (int i = 0; i < o.count; i += lanes) {
+  // Blocks are padded to whole rounds of four vectors; one loop test for each round.
+  constexpr int round = 4 * lanes;
+  const int rounds = (o.count + round - 1) / round * round;
+#pragma GCC unroll 4
+  for (int i = 0; i < rounds; i += lanes) {
     const V a = mask & 1 ? sa : *(const V*)(o.a + i);
     const V b = mask & 2 ? sb : *(const V*)(o.b + i);
     const V c = mask & 4 ? sc : *(const V*)(o.c + i);
@@ -312,6 +316,7 @@ uint8_t advance(const AdvanceArguments& g) {
   const V h = broadcast(g.h), fixed = broadcast(g.scalar_rate);
   L bad{}, below{};
   int i = 0;
+#pragma GCC unroll 4
   for (; i + lanes <= g.count; i += lanes) {
     const V y = *(const V*)(g.y + i) + h * (g.rate ? *(const V*)(g.rate + i) : fixed);
     *(V*)(g.y_new + i) = y;

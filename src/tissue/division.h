@@ -79,7 +79,7 @@ struct Threshold {
 double threshold_of(const Tissue& tissue, Index cell, const Threshold& threshold);
 
 /// Divides every cell above its threshold, until none is; in order of identity, so daughters last. When the tissue
-/// grows past 1000, 1500, 2250, ... cells it is renumbered along a curve (order.h) at the end. Errors: settings out of
+/// grows past 1000, 1250, 1562, ... cells it is renumbered along a curve (order.h) at the end. Errors: settings out of
 /// range; no geometry; those of divide(), with what is divided by then done; Cancelled, between two divisions.
 /// @return how many divisions
 int64_t divide_above(Tissue& tissue, const Threshold& threshold, const DivisionRule& rule,
