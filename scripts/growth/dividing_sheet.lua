@@ -11,9 +11,7 @@ local P = tunica.params {
   cells = { 4000, "cells at the end, about", min = 2 },
   rule = { "errera", "rule of division: errera or closest_wall" },
   max_area = { 1, "area at which a cell divides", min = 1e-6 },
-  variation = { 0.32, "of that area from cell to cell", min = 0, max = 0.9 },
-  gap = { 0.26, "least distance of a new wall from old junctions", min = 0 },
-  pinch = { 0.03, "of the new wall's length, by which each end is drawn inwards", min = 0, max = 0.4 },
+  variation = { 0.3, "of that area from cell to cell", min = 0, max = 0.9 },
   gx = { 1, "growth in x", min = 0 },
   gy = { 1, "growth in y", min = 0 },
 }
@@ -23,7 +21,7 @@ local model = tunica.model { tissue = tissue, params = P, dt = 0.05, stop = math
 
 model:every(0.01, function()
   tissue:grow { rates = { P.gx, P.gy }, time = 0.01 }
-  tissue:divide { above = P.max_area, variation = P.variation, rule = P.rule, gap = P.gap, pinch = P.pinch }
+  tissue:divide { above = P.max_area, variation = P.variation, rule = P.rule }
 end)
 
 -- Two stages, 12 h apart, of an Arabidopsis shoot apical meristem (segmented in MorphoGraphX; the package mgx2r ships them):

@@ -65,6 +65,8 @@ struct Kernels {
   void (*wall_sum)(const LayoutView&, int block, const double* values, double* out);
   void (*fetch)(double* dst, const double* values, const int32_t* index, int count);
   uint8_t (*advance)(const AdvanceArguments&);
+  /// The same with the rate a * b + c, computed on the way; [mask] as above.
+  uint8_t (*advance_multiply_add[8])(const AdvanceArguments&, const Operands&);
 };
 
 enum class InstructionSet : uint8_t { best, sse2, avx2 };

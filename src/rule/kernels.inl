@@ -312,13 +312,15 @@ void fetch(double* dst, const double* values, const int32_t* index, int count) {
   for (int i = 0; i < count; ++i) dst[i] = values[index[i]];
 }
 
-uint8_t advance(const AdvanceArguments& g) {
-  const V h = broadcast(g.h), fixed = broadcast(g.scalar_rate);
+/// y + h * rate over a block; `rate(i)` gives a vector of rates, `rate_of(i)` one.
+template <class Rates, class Rate>
+inline uint8_t advance_by(const AdvanceArguments& g, Rates rates, Rate rate_of) {
+  const V h = broadcast(g.h);
   L bad{}, below{};
   int i = 0;
 #pragma GCC unroll 4
   for (; i + lanes <= g.count; i += lanes) {
-    const V y = *(const V*)(g.y + i) + h * (g.rate ? *(const V*)(g.rate + i) : fixed);
+    const V y = *(const V*)(g.y + i) + h * rates(i);
     *(V*)(g.y_new + i) = y;
     bad |= (y - y) != (y - y);
     below |= y < broadcast(0.0);
@@ -326,11 +328,37 @@ uint8_t advance(const AdvanceArguments& g) {
   uint8_t found = 0;
   for (int j = 0; j < lanes; ++j) found |= (uint8_t)((bad[j] ? not_finite : 0) | (below[j] ? negative : 0));
   for (; i < g.count; ++i) {
-    const double y = g.y[i] + g.h * (g.rate ? g.rate[i] : g.scalar_rate);
+    const double y = g.y[i] + g.h * rate_of(i);
     g.y_new[i] = y;
     found |= (uint8_t)(((y - y) != (y - y) ? not_finite : 0) | (y < 0 ? negative : 0));
   }
   return found;
+}
+
+uint8_t advance(const AdvanceArguments& g) {
+  if (g.rate) return advance_by(g, [&](int i) { return *(const V*)(g.rate + i); }, [&](int i) { return g.rate[i]; });
+  const V fixed = broadcast(g.scalar_rate);
+  return advance_by(g, [&](int) { return fixed; }, [&](int) { return g.scalar_rate; });
+}
+
+template <int mask>
+uint8_t advance_multiply_add(const AdvanceArguments& g, const Operands& o) {
+  const V sa = broadcast(o.sa), sb = broadcast(o.sb), sc = broadcast(o.sc);
+  return advance_by(
+      g,
+      [&](int i) {
+        const V a = mask & 1 ? sa : *(const V*)(o.a + i);
+        const V b = mask & 2 ? sb : *(const V*)(o.b + i);
+        const V c = mask & 4 ? sc : *(const V*)(o.c + i);
+        return a * b + c;
+      },
+      [&](int i) { return (mask & 1 ? o.sa : o.a[i]) * (mask & 2 ? o.sb : o.b[i]) + (mask & 4 ? o.sc : o.c[i]); });
+}
+
+template <int mask>
+void fill_advance(Kernels& k) {
+  k.advance_multiply_add[mask] = advance_multiply_add<mask>;
+  if constexpr (mask < 7) fill_advance<mask + 1>(k);
 }
 
 }  // namespace
@@ -349,6 +377,7 @@ const Kernels& kernels() {
     k.wall_sum = wall_sum;
     k.fetch = fetch;
     k.advance = advance;
+    fill_advance<0>(k);
     return k;
   }();
   return set;

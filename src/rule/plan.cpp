@@ -235,7 +235,7 @@ class Planner {
       if (equations_.columns[o.column].kind != Kind::cell || now != last_) continue;
       const Operand a = cell_value(e, o.value, now);
       if (o.is_rate)
-        e.pass.code.push_back({.code = Code::rate, .a = a, .column = o.column});
+        emit_rate(e, o, a);
       else
         e.pass.code.push_back({.code = Code::copy, .dst = {Place::column, o.column}, .a = a});
     }
@@ -246,6 +246,18 @@ class Planner {
       e.pass.code.push_back(pack);
     }
     finish(e);
+  }
+
+  /// The last product and sum of a rate are computed while the state is advanced, where nothing else needs them.
+  void emit_rate(Emitter& e, const Output& o, Operand a) {
+    std::vector<Instruction>& code = e.pass.code;
+    const bool last = !code.empty() && code.back().code == Code::multiply_add && code.back().dst.place == Place::reg &&
+                      code.back().dst.index == a.index && a.place == Place::reg && uses_[o.value] == 0;
+    if (!last) return code.push_back({.code = Code::rate, .a = a, .column = o.column});
+    Instruction i = code.back();
+    code.pop_back();
+    e.where.erase(o.value);
+    code.push_back({.code = Code::rate, .a = i.a, .b = i.b, .c = i.c, .column = o.column, .fused = true});
   }
 
   Operand side_value(Emitter& e, NodeId id) {

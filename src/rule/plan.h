@@ -29,6 +29,7 @@ struct Instruction {
   Operand dst, a, b, c;
   int row = -1;
   int column = -1;
+  bool fused = false;                ///< rate: it is a * b + c rather than a
   bool is_rate = false;              ///< scatter: to the rate of `column` rather than to the column
   std::vector<Operand> values;       ///< pack: sources; gather: destinations
   std::vector<Operand> sources;      ///< gather without a row: one or two columns or temps

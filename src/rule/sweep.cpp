@@ -130,23 +130,32 @@ double* System::Sweep::at(const Address& a, Index first, double* registers) cons
   return nullptr;
 }
 
-void System::Sweep::rate(const Bound& b, Index first, Index count, double* registers, uint8_t* flags) const {
-  const size_t offset = system.state_[b.state].offset + first;
-  const double* values = at(b.a, first, registers);
-  const double fixed = b.a.scalar ? *b.a.scalar : 0.0;
-  if (y_new)
-    flags[b.state] |= system.kernels_.advance({y + offset, values, fixed, h, y_new + offset, count});
-  else if (values)
-    std::memcpy(dydt + offset, values, sizeof(double) * count);
-  else
-    std::fill_n(dydt + offset, count, fixed);
-}
-
 namespace {
 
 double value_of(const Address& a) { return a.scalar ? *a.scalar : 0.0; }
 
 }  // namespace
+
+void System::Sweep::rate(const Bound& b, Index first, Index count, double* registers, uint8_t* flags) const {
+  const Kernels& k = system.kernels_;
+  const size_t offset = system.state_[b.state].offset + first;
+  const double* values = at(b.a, first, registers);
+  if (b.instruction->fused) {
+    const auto place = [&](const Address& a) { return at(a, first, registers); };
+    const Operands o{y_new ? nullptr : dydt + offset, values, place(b.b), place(b.c), value_of(b.a), value_of(b.b), value_of(b.c), count};
+    const int mask = (o.a ? 0 : 1) | (o.b ? 0 : 2) | (o.c ? 0 : 4);
+    if (y_new)
+      flags[b.state] |= k.advance_multiply_add[mask]({y + offset, nullptr, 0, h, y_new + offset, count}, o);
+    else
+      k.elementwise[static_cast<int>(Code::multiply_add)][mask](o);
+  } else if (y_new) {
+    flags[b.state] |= k.advance({y + offset, values, value_of(b.a), h, y_new + offset, count});
+  } else if (values) {
+    std::memcpy(dydt + offset, values, sizeof(double) * count);
+  } else {
+    std::fill_n(dydt + offset, count, value_of(b.a));
+  }
+}
 
 void System::Sweep::cells(const std::vector<Bound>& code, Index block, double* registers, uint8_t* flags) const {
   const LayoutView view = system.layout_->view();
