@@ -125,7 +125,7 @@ double* System::Sweep::at(const Address& a, Index first, double* registers) cons
     case Address::Base::memory: return a.memory + first;
     case Address::Base::state: return const_cast<double*>(y) + a.offset + first;
     case Address::Base::registers: return registers + a.offset;
-    case Address::Base::none: break;
+    case Address::Base::nowhere: break;
   }
   return nullptr;
 }

@@ -7,7 +7,7 @@ namespace tunica {
 
 /// An operand as an address: the values of a block are at `at(first element, ...)`.
 struct Address {
-  enum class Base : uint8_t { none, memory, state, registers } base = Base::none;
+  enum class Base : uint8_t { nowhere, memory, state, registers } base = Base::nowhere;
   double* memory = nullptr;  ///< first element
   size_t offset = 0;         ///< into the state vector, or the registers
   const double* scalar = nullptr;

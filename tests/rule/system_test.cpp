@@ -195,8 +195,9 @@ TEST(System, SameBitsForInstructionSetsThreadsAndNumbering) {
   for (const Case& c : cases) {
     auto t = sheet_with(c.columns, 6000);
     const auto expected = after_steps(t, c.write, c.parameters, {.set = InstructionSet::sse2}, 20);
-    if (__builtin_cpu_supports("avx2"))
+    if (__builtin_cpu_supports("avx2")) {
       EXPECT_EQ(after_steps(t, c.write, c.parameters, {.set = InstructionSet::avx2}, 20), expected);
+    }
     EXPECT_EQ(after_steps(t, c.write, c.parameters, {.threads = 2}, 20), expected);
     auto other = std::make_shared<Tissue>(sheet({.cells = 6000, .seed = 3}));
     for (const std::string& name : c.columns) fill(*other, Kind::cell, name, 0.1, 2.0);
