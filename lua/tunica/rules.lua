@@ -131,7 +131,12 @@ function rules.trace(set, rule)
   params.trace_hook = function(_, name, value) return core.parameter_symbol(name) or value end
   local ok, reason = core.trace(set, rule.what, rule.kind, rule.fn, rule.where, rule.column)
   params.trace_hook = nil
-  if not ok then return tostring(reason) end
+  if ok then return nil end
+  reason = tostring(reason)
+  if reason:find "attempt to compare" then
+    reason = reason .. " (a rule cannot decide by <, <=, >; write where(above(x, y), a, b), min, max, clamp or step)"
+  end
+  return reason
 end
 
 -- Running rules as they are ----------------------------------------------------------------------------------------------
