@@ -11,7 +11,9 @@ local P = tunica.params {
   cells = { 4000, "cells at the end, about", min = 2 },
   rule = { "errera", "rule of division: errera or closest_wall" },
   max_area = { 1, "area at which a cell divides", min = 1e-6 },
-  variation = { 0.3, "of that area from cell to cell", min = 0, max = 0.9 },
+  variation = { 0.34, "of that area from cell to cell", min = 0, max = 0.9 },
+  gap = { 0.22, "least distance of a new wall from old junctions", min = 0 },
+  pinch = { 0.02, "of the new wall's length, by which each end is drawn inwards", min = 0, max = 0.4 },
   gx = { 1, "growth in x", min = 0 },
   gy = { 1, "growth in y", min = 0 },
 }
@@ -21,7 +23,7 @@ local model = tunica.model { tissue = tissue, params = P, dt = 0.05, stop = math
 
 model:every(0.01, function()
   tissue:grow { rates = { P.gx, P.gy }, time = 0.01 }
-  tissue:divide { above = P.max_area, variation = P.variation, rule = P.rule }
+  tissue:divide { above = P.max_area, variation = P.variation, rule = P.rule, gap = P.gap, pinch = P.pinch }
 end)
 
 -- Two stages, 12 h apart, of an Arabidopsis shoot apical meristem (segmented in MorphoGraphX; the package mgx2r ships them):
@@ -33,7 +35,9 @@ local real = {
 
 local function shapes()
   local s = tissue:statistics()
-  local out = { area_cv = s.area_cv, lewis = s.lewis_slope, sharp_cells = s.sharp_cells, mean_sides = s.mean_sides }
+  local below_60 = 0  -- share of cells with a corner of less than 60 degrees
+  for i = 1, 6 do below_60 = below_60 + s.least_angle[i] end
+  local out = { below_60_degrees = below_60, area_cv = s.area_cv, lewis = s.lewis_slope, below_45_degrees = s.sharp_cells, mean_sides = s.mean_sides }
   for n = 4, 8 do out["sides_" .. n] = s.shares[n] or 0 end
   return out
 end
@@ -42,6 +46,7 @@ model:view { colour = function(c) return c.side_count end, legend = "sides", pal
 model:report {
   model = shapes,
   real = function() return real end,
+  least_angles = function() return tissue:statistics().least_angle end,  -- shares by least corner, in steps of 10 degrees
 }
 
 return model
