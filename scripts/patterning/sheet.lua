@@ -22,12 +22,12 @@ local P = tunica.params {
   mu_pin = { 1, "decay of PIN1", min = 0 },
   growth = { 0.005, "rate at which lengths grow", min = 0 },
   max_area = { 0.75, "area at which a cell divides", min = 1e-6 },
-  variation = { 0.2, "of that area from cell to cell", min = 0, max = 0.9 },
+  variation = { 0.15, "of that area from cell to cell", min = 0, max = 0.9 },
   dt = { 0.01, "time step", min = 1e-9 },
   method = "euler",
 }
 
-local tissue = tunica.sheet { cells = P.cells, max_area = P.max_area }
+local tissue = tunica.sheet { cells = P.cells, max_area = P.max_area, variation = P.variation }
 tissue:cell { auxin = function(c) return 1 + c:uniform(-0.01, 0.01) end, pin = 0.94 }
 
 local model = tunica.model { tissue = tissue, params = P, dt = P.dt, method = P.method, stop = 60 }
