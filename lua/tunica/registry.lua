@@ -23,6 +23,7 @@ local entries, by_name = {}, {}
 --- Raises an error that points at the innermost line of the user's own code.
 local function fail(format, ...)
   local text = select("#", ...) > 0 and string.format(format, ...) or format
+  if #text > 1000 then text = text:sub(1, 1000) .. " ..." end  -- a value quoted in it was long
   error(core.where() .. text, 0)
 end
 registry.fail = fail

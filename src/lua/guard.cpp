@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "lua/guard.h"
 
+#include <algorithm>
 #include <cstring>
+#include <string_view>
 
 namespace tunica::lua {
 namespace {
@@ -38,6 +40,15 @@ void push_where(lua_State* L) {
     }
   }
   lua_pushliteral(L, "");
+}
+
+void push_message(lua_State* L, const char* message) {
+  constexpr size_t most = 1000;
+  const std::string_view text(message);
+  lua_pushlstring(L, text.data(), std::min(text.size(), most));
+  if (text.size() <= most) return;
+  lua_pushliteral(L, " ...");
+  lua_concat(L, 2);
 }
 
 ScriptError::ScriptError(lua_State* L)

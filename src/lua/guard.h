@@ -44,6 +44,9 @@ class Entering {
 /// Pushes "file:line: " of the innermost frame in the user's own code (chunks named "=tunica/..." are the library's).
 void push_where(lua_State* L);
 
+/// Pushes an error message, cut where a value quoted in it is very long.
+void push_message(lua_State* L, const char* message);
+
 /// A Lua error caught on its way through C++ (a callback that failed): the very same value is handed on, so the user
 /// sees the line of the callback, not of the operation that called it.
 class ScriptError : public Error {
@@ -73,7 +76,7 @@ int guard(lua_State* L, Body&& body) {
     lua_concat(L, 2);
   } catch (const std::exception& error) {
     push_where(L);
-    lua_pushstring(L, error.what());
+    push_message(L, error.what());
     lua_concat(L, 2);
   }
   return lua_error(L);
