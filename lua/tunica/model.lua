@@ -114,7 +114,11 @@ op { name = "model:flux", returns = nil, source = "thesis 5.9",
 
 local function event(kind, time, fn) return { kind = kind, time = time, fn = fn, fired = 0 } end
 
-op { name = "model:every", fn = function(model, interval, fn) table.insert(inside[model].events, event("every", interval, fn)) end,
+op { name = "model:every", fn = function(model, interval, fn)
+    local e = event("every", interval, fn)
+    e.fired = math.floor(model.time / interval + 1e-9)  -- those before now are past
+    table.insert(inside[model].events, e)
+  end,
   args = { { name = "interval", type = "number", above = 0, required = true, unit = "time", doc = "first after one interval" },
     { name = "event", type = "function", required = true, doc = "function(t)" } },
   doc = "Something that happens at regular times: growth, division.", example = diffusion .. "model:every(1, function(t) print(t) end)" }
@@ -150,16 +154,15 @@ function methods.add_view(model, view) table.insert(inside[model].views, view) e
 
 local function values_of(my) return my.params and params.values(my.params) or {} end
 
---- Numbers that rules hold from outside: if one changes, the rules must be traced again.
-local function held_numbers(my)
-  local text = {}
-  for _, r in ipairs(my.rules) do
-    for _, upvalue in ipairs(core.upvalues(r.fn)) do
-      local kind = type(upvalue[2])
-      if kind == "number" or kind == "boolean" or kind == "string" then text[#text + 1] = upvalue[1] .. "=" .. tostring(upvalue[2]) end
-    end
+--- Plain values that rules hold from outside (numbers, text, tables of them, also through functions they call) and
+-- parameters that are no numbers: if one changes, the rules must be traced again.
+local function held_values(my)
+  local functions, choices = {}, {}
+  for i, r in ipairs(my.rules) do functions[i] = r.fn end
+  for name, value in pairs(values_of(my)) do
+    if type(value) ~= "number" then choices[name] = value end
   end
-  return table.concat(text, ";")
+  return plain.encode { plain.upvalues(functions), choices }
 end
 
 local function untraced_warning(my, r, reason)
@@ -167,17 +170,28 @@ local function untraced_warning(my, r, reason)
   io.stderr:write("tunica: ", my.warnings[#my.warnings], "\n")
 end
 
+--- Derived columns first, then what changes: a rate may be written before the columns it reads.
+local function in_order(list)
+  local ordered = {}
+  for _, derive in ipairs { true, false } do
+    for _, r in ipairs(list) do
+      if (r.what == "derive") == derive then ordered[#ordered + 1] = r end
+    end
+  end
+  return ordered
+end
+
 --- Traces what can be traced; rules named in `direct` run as they are.
 local function build(my)
   local set, index = core.rules(my.tissue), 0
-  for _, r in ipairs(my.rules) do
+  for _, r in ipairs(in_order(my.rules)) do
     local reason = r.direct or rules.trace(set, r)
     if reason then
+      rules.add_direct(set, r, my.tissue)
       if not r.direct then
         r.direct = reason
         untraced_warning(my, r, reason)
       end
-      rules.add_direct(set, r, my.tissue)
       r.index = nil
     else
       index = index + 1
@@ -202,18 +216,47 @@ local function verify(my, set, machine)
   return true
 end
 
-local function prepare(my)
-  local held = held_numbers(my)
-  if not my.stale and held == my.held then return end
-  if my.held and held ~= my.held then
-    for _, r in ipairs(my.rules) do r.direct = nil end
-  end
+--- Binds the rules anew until those that are traced agree with direct evaluation.
+local function bind(my)
   local old = my.machine
   repeat
     my.set, my.machine = build(my)
     if old then core.machine_load(my.machine, core.machine_save(old)) end
   until verify(my, my.set, my.machine)
+end
+
+--- Runs `work` while rules may be called: they must not change the structure, nor run the model.
+local function with_rules(my, work)
+  if my.busy then fail("a model cannot be run, saved or looked into from inside its own rules") end
+  my.busy = true
+  local ok, message = pcall(core.with_lock, my.tissue, work, my)
+  my.busy = false
+  if not ok then error(message, 0) end
+end
+
+local function prepare(my)
+  if my.busy then fail("a model cannot be run, saved or looked into from inside its own rules") end
+  local held = held_values(my)
+  if not my.stale and held == my.held then return end
+  if my.held and held ~= my.held then
+    for _, r in ipairs(my.rules) do r.direct = nil end
+  end
+  my.stale = true
+  with_rules(my, bind)
   my.held, my.stale = held, false
+end
+
+--- What a rule decides by may change with the state: after the 1st, 2nd, 4th, 8th ... and every 64th event traced rules are
+-- compared with direct evaluation again.
+local function verify_now_and_then(my)
+  my.verified = (my.verified or 0) + 1
+  local n = my.verified
+  local power = n % 64 == 0
+  for k = 0, 5 do power = power or n == 2 ^ k end
+  if not power then return end
+  local agree = true
+  with_rules(my, function() agree = verify(my, my.set, my.machine) end)
+  if not agree then with_rules(my, bind) end
 end
 
 local function refresh_derived(my)
@@ -239,6 +282,7 @@ local function next_event(my, limit)
   return earliest
 end
 
+--- True if any was due.
 local function fire_events(my, now)
   local slack, refreshed = 1e-9 * my.dt, false
   for _, e in ipairs(my.events) do
@@ -246,10 +290,11 @@ local function fire_events(my, now)
     if time and time <= now + slack then
       if not refreshed then refresh_derived(my) end
       refreshed = true
-      e.fired = e.fired + 1
       e.fn(time)
+      e.fired = e.fired + 1  -- an event that fails has not happened
     end
   end
+  return refreshed
 end
 
 local function test_conditions(my, now)
@@ -283,8 +328,9 @@ local function advance(model, o)
   local slack, stepped = 1e-9 * my.dt, false
   while true do
     local now = model.time
-    fire_events(my, now)
+    local fired = fire_events(my, now)
     prepare(my)
+    if fired then verify_now_and_then(my) end
     if now >= o.to - slack then break end
     if o.pause and stepped and now >= o.pause - slack then return "paused" end
     if core.cancelled() then return "interrupted" end
@@ -308,8 +354,13 @@ op { name = "model:advance", kind = "named", returns = "'done', 'paused', 'out o
     { name = "seconds", type = "number", min = 0, unit = "s", doc = "stop after so much time on the clock" } },
   example = diffusion .. "model:advance { to = 1 } print(model.time)",
   fn = function(model, o)
-    local status = advance(model, o)
-    if status ~= "done" then refresh_derived(inside[model]) end
+    local my = inside[model]
+    if my.advancing then fail("model:advance cannot be called while the model runs, in an event or a condition") end
+    my.advancing = true
+    local ok, status = pcall(advance, model, o)
+    my.advancing = false
+    if not ok then error(status, 0) end
+    if status ~= "done" then refresh_derived(my) end
     return status
   end }
 
@@ -335,7 +386,7 @@ op { name = "model:snapshot", returns = "text", example = diffusion .. "print(#m
     local fired, holds = {}, {}
     for i, e in ipairs(my.events) do fired[i] = e.fired end
     for i, c in ipairs(my.conditions) do holds[i] = c.holds end
-    return core.pack { tissue = core.tissue_save(my.tissue), machine = core.machine_save(my.machine),
+    return core.pack { tissue = core.tissue_save(my.tissue), machine = core.machine_save(my.machine), random = core.random_state(),
       script = plain.encode { fired = fired, holds = holds, params = values_of(my), data = my.tissue.data,
         upvalues = plain.upvalues(functions_of(my)), globals = plain.globals() } }
   end }
@@ -345,13 +396,15 @@ op { name = "model:restore", args = { { name = "snapshot", type = "string", requ
   fn = function(model, bytes)
     local my = inside[model]
     local parts = core.unpack(bytes)
-    if not (parts.tissue and parts.machine and parts.script) then fail("this is no snapshot of a model") end
+    if not (parts.tissue and parts.machine and parts.script and parts.random) then fail("this is no snapshot of a model") end
     prepare(my)
-    core.tissue_load(my.tissue, parts.tissue)
     local script = plain.decode(parts.script, my.tissue)
     if type(script) ~= "table" or #script.fired ~= #my.events or #script.holds ~= #my.conditions then
       fail("the snapshot is of another script: it has %d events, the model %d", type(script) == "table" and #script.fired or 0, #my.events)
     end
+    core.tissue_load(my.tissue, parts.tissue)
+    script = plain.decode(parts.script, my.tissue)  -- again: handles are of the tissue that is now there
+    core.random_state(parts.random)
     for i, e in ipairs(my.events) do e.fired = script.fired[i] end
     for i, c in ipairs(my.conditions) do c.holds = script.holds[i] end
     if my.params then

@@ -260,7 +260,11 @@ function rules.compare(set, index, rule, tissue, values, time)
   for _, element in ipairs(samples(tissue, rule.what == "flux" and "wall" or rule.kind)) do
     local direct = rules.evaluate(rule, element, time)
     local traced = core.reference(set, values, time, index, element)
+    for name in pairs(traced) do
+      if direct[name] == nil then return string.format("evaluated directly it does not set %s in %s", name, tostring(element)) end
+    end
     for name, value in pairs(direct) do
+      if not traced[name] then return string.format("evaluated directly it sets %s in %s", name, tostring(element)) end
       local number, magnitude = unpack(traced[name])
       local same = number == value or number ~= number and value ~= value
       if not same and not (math.abs(number - value) <= 1e-9 * magnitude) then

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "lua/bind_tissue.h"
 #include "lua/symbol.h"
@@ -37,6 +38,7 @@ struct Rules {
     std::vector<Target> targets;
   };
   std::vector<Traced> traced;
+  std::set<std::pair<Kind, std::string>> derived;  ///< columns that some rule derives
 };
 
 /// Equations bound to a tissue and a method.
@@ -105,6 +107,19 @@ std::vector<double> parameter_values(lua_State* L, int at, const Equations& equa
 
 // === Rules
 
+/// What makes a set of rules impossible, as opposed to a rule that cannot be traced.
+class Contradiction : public Error {
+ public:
+  using Error::Error;
+};
+
+bool reads(const Graph& g, NodeId id, Op op, int slot, std::set<NodeId>& seen) {
+  if (id == no_node || !seen.insert(id).second) return false;
+  const Node& n = g[id];
+  if (n.op == op && n.slot == slot) return true;
+  return reads(g, n.a, op, slot, seen) || reads(g, n.b, op, slot, seen) || reads(g, n.c, op, slot, seen);
+}
+
 int rules(lua_State* L) {
   return guard(L, [&] {
     auto object = std::make_unique<Rules>();
@@ -124,16 +139,27 @@ int slot_of(Rules& r, Kind kind, const std::string& name) {
 void keep_derived(Rules& r, Kind kind, const Assignments& written, const std::string& where, Rules::Traced& traced) {
   Equations& e = *r.equations;
   if (written.empty()) fail("the rule sets nothing; a derive rule sets columns: c.e = ...");
-  if (e.derivations.empty() || e.derivations.back().direct >= 0) e.derivations.emplace_back();
+  if (e.derivations.empty() || e.derivations.back().direct >= 0 || e.derivations.back().materialise) e.derivations.emplace_back();
   for (const auto& [name, node] : written) {
     NodeId value = node;
     if (kind != Kind::cell && e.graph[node].domain == Domain::cell) value = e.graph.own(node);
     if (!r.tissue->find_column(kind, name)) r.tissue->add_column(kind, {.name = name, .initial = 0});
     const int slot = slot_of(r, kind, name);
-    r.tracer.derived[{kind, name}] = value;
+    const Op leaf = kind == Kind::cell ? Op::cell_column : kind == Kind::wall ? Op::wall_column : Op::side_column;
+    std::set<NodeId> seen;
+    if (reads(e.graph, value, leaf, slot, seen))
+      throw Contradiction(fmt::format("{}: the derived column '{}' refers to itself", where, name));
+    // A wall's expression is seen from its first side; read from the other it would be turned round.
+    if (kind != Kind::wall) r.tracer.derived[{kind, name}] = value;
+    r.derived.insert({kind, name});
     traced.targets.push_back({slot, value, where});
     e.derivations.back().traced.push_back({slot, value, where});
   }
+  if (kind == Kind::wall) e.derivations.back().materialise = true;
+}
+
+void refuse_derived(const Rules& r, Kind kind, const std::string& name, const std::string& where) {
+  if (r.derived.count({kind, name})) throw Contradiction(fmt::format("{}: '{}' is derived, so it cannot have a rate as well", where, name));
 }
 
 void keep_rates(Rules& r, Kind kind, const Assignments& written, const std::string& where, Rules::Traced& traced) {
@@ -142,7 +168,7 @@ void keep_rates(Rules& r, Kind kind, const Assignments& written, const std::stri
     NodeId value = node;
     if (kind != Kind::cell && r.equations->graph[node].domain == Domain::cell) value = r.equations->graph.own(node);
     const int slot = slot_of(r, kind, name);
-    if (r.tracer.derived.count({kind, name})) fail("'{}' is derived, so it cannot have a rate as well", name);
+    refuse_derived(r, kind, name, where);
     traced.targets.push_back({slot, value, where});
     r.equations->rates.push_back({slot, value, where});
   }
@@ -151,6 +177,7 @@ void keep_rates(Rules& r, Kind kind, const Assignments& written, const std::stri
 void keep_flux(Rules& r, const std::string& name, NodeId node, const std::string& where, Rules::Traced& traced) {
   Graph& g = r.equations->graph;
   const int slot = slot_of(r, Kind::cell, name);
+  refuse_derived(r, Kind::cell, name, where);
   NodeId rate = g.unary(Op::neg, g.reduce(Op::flux_sum, node));
   if (r.tissue->has_geometry()) rate = g.binary(Op::div, rate, g.column(Kind::cell, r.equations->column_slot(Kind::cell, "area")));
   traced.targets.push_back({slot, node, where});
@@ -181,6 +208,8 @@ int trace(lua_State* L) {
       r.traced.push_back(traced);
       lua_pushboolean(L, 1);
       return 1;
+    } catch (const Contradiction&) {
+      throw;
     } catch (const ScriptError& error) {
       lua_settop(L, top);
       error.push(L);
@@ -236,7 +265,12 @@ int direct(lua_State* L) {
       lua_pop(L, 1);
       if (what == "derive" && !r.tissue->find_column(kind, names.back())) r.tissue->add_column(kind, {.name = names.back(), .initial = 0});
       rule.columns.push_back(slot_of(r, kind, names.back()));
-      if (what == "derive") r.tracer.derived.erase({kind, names.back()});
+      if (what == "derive") {
+        r.tracer.derived.erase({kind, names.back()});
+        r.derived.insert({kind, names.back()});
+      } else {
+        refuse_derived(r, kind, names.back(), rule.where);
+      }
     }
     const Held held(L, 4);
     const std::weak_ptr<Tissue> tissue = r.tissue;
@@ -250,7 +284,7 @@ int direct(lua_State* L) {
     };
     Equations& e = *r.equations;
     if (what == "derive") {
-      if (e.derivations.empty() || e.derivations.back().direct >= 0) e.derivations.emplace_back();
+      if (e.derivations.empty() || e.derivations.back().direct >= 0 || e.derivations.back().materialise) e.derivations.emplace_back();
       e.derivations.back().direct = static_cast<int>(e.direct_derivations.size());
       e.direct_derivations.push_back(std::move(rule));
     } else {
@@ -490,6 +524,16 @@ int tissue_load(lua_State* L) {
   });
 }
 
+/// with_lock(tissue, f, ...): calls f; meanwhile the tissue's structure cannot change.
+int with_lock(lua_State* L) {
+  return guard(L, [&] {
+    const Locked locked(tissue_at(L, 1));
+    check_function(L, 2, "a function");
+    call(L, lua_gettop(L) - 2, 0);
+    return 0;
+  });
+}
+
 // === Looking into functions
 
 /// upvalues(function) -> list of { name, value, identity }
@@ -564,7 +608,7 @@ void register_model(lua_State* L) {
   const luaL_Reg functions[] = {{"rules", rules}, {"trace", trace}, {"direct", direct}, {"reference", reference}, {"machine", machine},
                                 {"advance", advance}, {"failure", failure}, {"derive", derive}, {"check_lowering", check_lowering},
                                 {"machine_time", time}, {"machine_cost", cost}, {"machine_save", save}, {"machine_load", load},
-                                {"tissue_save", tissue_save},
+                                {"tissue_save", tissue_save}, {"with_lock", with_lock},
                                 {"tissue_load", tissue_load}, {"upvalues", upvalues}, {"set_upvalue", set_upvalue}, {nullptr, nullptr}};
   add_functions(L, functions);
   open_bytecode_functions(L);

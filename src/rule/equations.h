@@ -36,6 +36,7 @@ struct Equations {
   struct Derivation {
     std::vector<Target> traced;
     int direct = -1;
+    bool materialise = false;  ///< later rules read the columns, not the expressions (walls, which have two orientations)
   };
 
   Graph graph;

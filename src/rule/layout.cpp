@@ -6,7 +6,7 @@
 namespace tunica {
 
 Layout::Layout(const Tissue& tissue) : cells(tissue.cells()), blocks((cells + block_size - 1) / block_size), edges(0), walls(0) {
-  neighbour_count.assign(static_cast<size_t>(blocks) * block_size, 0.0);
+  neighbour_count.resize(static_cast<size_t>(blocks) * block_size);
   position.reserve(cells);
   run_begin.reserve(blocks + 1);
   edge_begin.reserve(blocks + 1);
@@ -30,7 +30,7 @@ Layout::Layout(const Tissue& tissue) : cells(tissue.cells()), blocks((cells + bl
       if (by_count.size() <= n) by_count.resize(n + 1);
       if (n > UINT16_MAX) fail("a cell has {} neighbours; the limit is {}", n, UINT16_MAX);
       by_count[n].push_back(static_cast<uint8_t>(cell - first));
-      neighbour_count[cell] = static_cast<double>(n);
+      neighbour_count.data()[cell] = static_cast<double>(n);
     }
     for (size_t n = 0; n < by_count.size(); ++n) {
       if (by_count[n].empty()) continue;

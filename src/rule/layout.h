@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/aligned.h"
 #include "rule/kernels.h"
 #include "tissue/tissue.h"
 
@@ -26,7 +27,7 @@ struct Layout {
   std::vector<int32_t> own, across, wall, side, mirror;  ///< per half-edge: cell, neighbour, wall, side, side across
   std::vector<int32_t> wall_code;     ///< per half-edge: 2 * (place of its wall below) + (1 on the wall's second side)
   std::vector<int32_t> primary;       ///< per wall between two cells: the half-edge of its first side
-  std::vector<double> neighbour_count;  ///< per cell, padded
+  AlignedBuffer neighbour_count;  ///< per cell, padded
 };
 
 }  // namespace tunica

@@ -4,21 +4,10 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
-#include <new>
 
 #include "rule/sweep.h"
 
 namespace tunica {
-
-void AlignedBuffer::Free::operator()(double* p) const { std::free(p); }
-
-void AlignedBuffer::resize(size_t size) {
-  const size_t bytes = (size * sizeof(double) + 127) / 64 * 64;
-  data_.reset(static_cast<double*>(std::aligned_alloc(64, bytes)));
-  if (!data_) throw std::bad_alloc();
-  std::memset(data_.get(), 0, bytes);
-  size_ = size;
-}
 
 System::System(std::shared_ptr<Equations> equations, std::shared_ptr<Tissue> tissue, SystemOptions options)
     : equations_(std::move(equations)), tissue_(std::move(tissue)), options_(options), kernels_(tunica::kernels(options.set)) {
@@ -37,7 +26,7 @@ System::System(std::shared_ptr<Equations> equations, std::shared_ptr<Tissue> tis
   std::vector<Output> derived;
   for (const Equations::Derivation& d : e.derivations) {
     for (const Target& target : d.traced) derived.push_back({target.column, target.value, false});
-    if (d.direct < 0) continue;
+    if (d.direct < 0 && !d.materialise) continue;
     stages_.push_back({compile(derived), d.direct});
     derived.clear();
   }
@@ -61,6 +50,8 @@ System::Compiled System::compile(const std::vector<Output>& outputs) {
   for (const StateColumn& s : state_) changes[s.column] = true;
   for (const DirectRule& rule : equations_->direct_derivations)
     for (const int column : rule.columns) changes[column] = true;
+  for (const Equations::Derivation& d : equations_->derivations)
+    for (const Target& target : d.traced) changes[target.column] = true;
   Compiled compiled;
   compiled.plan = lower(*equations_, outputs, changes);
   const std::vector<NodeId>& scalars = compiled.plan.scalars;
@@ -72,6 +63,13 @@ System::Compiled System::compile(const std::vector<Output>& outputs) {
     compiled.scalar_operands.push_back({place(n.a), place(n.b), place(n.c)});
   }
   return compiled;
+}
+
+/// Whether something must be in the tissue's columns before the rates can be computed.
+bool System::has_direct() const {
+  const Equations& e = *equations_;
+  return !e.direct_derivations.empty() || !e.direct_rates.empty() ||
+         std::any_of(e.derivations.begin(), e.derivations.end(), [](const Equations::Derivation& d) { return d.materialise; });
 }
 
 size_t System::padded(Kind kind) const {

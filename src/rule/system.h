@@ -6,28 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "base/aligned.h"
 #include "base/cancel.h"
 #include "rule/kernels.h"
 #include "rule/layout.h"
 #include "rule/plan.h"
 
 namespace tunica {
-
-/// A buffer of doubles, aligned for vectors and padded.
-class AlignedBuffer {
- public:
-  void resize(size_t size);  ///< new values are zero; old ones are lost
-  double* data() { return data_.get(); }
-  const double* data() const { return data_.get(); }
-  size_t size() const { return size_; }
-
- private:
-  struct Free {
-    void operator()(double* p) const;
-  };
-  std::unique_ptr<double[], Free> data_;
-  size_t size_ = 0;
-};
 
 struct SystemOptions {
   InstructionSet set = InstructionSet::best;
@@ -94,7 +79,7 @@ class System {
   void run(Compiled& compiled, double t, const double* y, double* dydt, double h, double* y_new);
   void run_stages(double t, const double* y);
   void add_direct_rates(double t, double* dydt);
-  bool has_direct() const { return !equations_->direct_derivations.empty() || !equations_->direct_rates.empty(); }
+  bool has_direct() const;
   size_t padded(Kind kind) const;
 
   std::shared_ptr<Equations> equations_;
