@@ -21,6 +21,9 @@ local meta = { __metatable = "model" }
 
 function meta.__index(model, key)
   if methods[key] then return methods[key] end
+  if registry.tracing and (key == "time" or key == "steps") then
+    fail("model.%s in a rule cannot be traced; a rule gets the time as its last argument", key)
+  end
   local my = inside[model]
   if key == "time" then return my.machine and (core.machine_time(my.machine)) or my.saved_time end
   if key == "steps" then return my.machine and select(2, core.machine_time(my.machine)) or 0 end

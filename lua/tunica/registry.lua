@@ -240,6 +240,9 @@ local function make_function(entry)
   end
   local is = types[entry.owner].is
   return function(self, ...)
+    if registry.tracing then
+      fail("%s gives what holds at one moment, so a rule that calls it cannot be traced", entry.name)
+    end
     if not is(self) then
       fail("%s: write it with a colon, behind a %s; before the colon came %s", entry.name, entry.owner, core.describe(self))
     end
@@ -279,6 +282,9 @@ function registry.op(entry)
   methods[entry.member] = entry.call
   return entry.call
 end
+
+--- True while a rule is called with symbols: operations on real cells, tissues and models are then errors.
+registry.tracing = false
 
 --- The functions of the module `tunica`.
 registry.module = {}

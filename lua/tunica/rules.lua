@@ -129,8 +129,10 @@ function rules.trace(set, rule)
     return string.format("line %d compares with == or ~=, which no symbol can answer; use where(equal(x, y), a, b), or decide outside the rule", line)
   end
   params.trace_hook = function(_, name, value) return core.parameter_symbol(name) or value end
-  local ok, reason = core.trace(set, rule.what, rule.kind, rule.fn, rule.where, rule.column)
-  params.trace_hook = nil
+  registry.tracing = true
+  local went, ok, reason = pcall(core.trace, set, rule.what, rule.kind, rule.fn, rule.where, rule.column)
+  registry.tracing, params.trace_hook = false, nil
+  if not went then error(ok, 0) end
   if ok then return nil end
   reason = tostring(reason)
   if reason:find "attempt to compare" then

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "lua/boxes.h"
+#include "lua/symbol.h"
 
 namespace tunica::lua {
 namespace {
@@ -46,6 +47,7 @@ int element_index(lua_State* L) {
   return guard(L, [&] {
     Handle* handle = handle_at(L, 1);
     if (!handle) fail("a field was asked of {}", describe(L, 1));
+    if (active_tracer(L)) fail("a rule that reads one particular {} cannot be traced", name_of(handle->kind));
     if (lua_type(L, 2) == LUA_TSTRING && push_member(L)) return 1;
     const std::string key = key_at(L, 2, name_of(handle->kind));
     const Tissue& tissue = open_tissue(*handle->box);
@@ -65,6 +67,7 @@ int element_newindex(lua_State* L) {
   return guard(L, [&] {
     Handle* handle = handle_at(L, 1);
     if (!handle) fail("a field was set on {}", describe(L, 1));
+    if (active_tracer(L)) fail("a rule cannot set columns of one particular {}", name_of(handle->kind));
     const char* noun = name_of(handle->kind);
     const std::string key = key_at(L, 2, noun);
     Tissue& tissue = open_tissue(*handle->box);

@@ -34,6 +34,20 @@ model, tissue = ring(function(c, d) d.auxin = helper(1) end)
 model:at(0.5, function() held = 0 end)
 check.near(grown(model, tissue), 0.5, 1e-12, "helper")
 
+-- what holds at one moment: the model's time, a maximum over the tissue
+model, tissue = ring(function(c, d) d.auxin = model.time end)
+check.near(grown(model, tissue), 0.45, 1e-12, "model.time")
+model, tissue = ring(function(c, d) d.auxin = -0.1 * tissue:max "auxin" * c.auxin end)
+local one, six = 1, 6
+for _ = 1, 10 do one, six = one - 0.01 * six * one, six - 0.01 * six * six end
+check.near(grown(model, tissue), one - 1, 1e-12, "maximum")
+
+-- one particular cell, read by all
+model, tissue = ring()
+local first = tissue:find(1)
+model:rate(function(c, d) d.auxin = first.auxin end)
+check.near(grown(model, tissue), 1.1 ^ 10 - 1, 1e-12, "one cell")
+
 -- a rate written before the derived column it reads
 model, tissue = ring(function(c, d) d.auxin = -c.e end)
 model:derive(function(c) c.e = c.auxin end)
