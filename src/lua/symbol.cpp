@@ -29,7 +29,8 @@ Symbol* symbol_at(lua_State* L, int at) {
   return same ? static_cast<Symbol*>(lua_touserdata(L, at)) : nullptr;
 }
 
-Symbol* push(lua_State* L, Symbol::Type type, int frame, View view = View::here, bool mirrored = false, NodeId node = no_node) {
+Symbol* push(lua_State* L, Symbol::Type type, int frame, View view = View::here, bool mirrored = false,
+             NodeId node = no_node) {
   auto* s = static_cast<Symbol*>(lua_newuserdata(L, sizeof(Symbol)));
   *s = {type, view, mirrored, node, frame};
   luaL_getmetatable(L, metatable);
@@ -39,7 +40,8 @@ Symbol* push(lua_State* L, Symbol::Type type, int frame, View view = View::here,
 
 Tracer& tracer(lua_State* L) {
   Tracer* active = active_tracer(L);
-  if (!active) fail("a symbol of a rule is used outside its rule; rules may only compute, not keep what they were given");
+  if (!active)
+    fail("a symbol of a rule is used outside its rule; rules may only compute, not keep what they were given");
   return *active;
 }
 
@@ -57,8 +59,10 @@ void check_frame(const Tracer& t, const Symbol& s) {
 /// A number or symbol as a node.
 NodeId node_at(lua_State* L, Tracer& t, int at) {
   if (const Symbol* s = symbol_at(L, at)) {
-    if (s->type != Symbol::Type::value) fail("expected a number, got {} itself; name one of its columns",
-                                             s->type == Symbol::Type::cell ? "a cell" : s->type == Symbol::Type::wall ? "a wall" : "a side");
+    if (s->type != Symbol::Type::value)
+      fail("expected a number, got {} itself; name one of its columns", s->type == Symbol::Type::cell   ? "a cell"
+                                                                        : s->type == Symbol::Type::wall ? "a wall"
+                                                                                                        : "a side");
     check_frame(t, *s);
     return s->node;
   }
@@ -89,12 +93,15 @@ int negate(lua_State* L) {
 
 int compare(lua_State* L) {
   return guard(L, [&]() -> int {
-    fail("a rule cannot decide by comparing values with <, <=, > or ==; write where(above(x, y), a, b), min, max, clamp or step");
+    fail(
+        "a rule cannot decide by comparing values with <, <=, > or ==; write where(above(x, y), a, b), min, max, clamp "
+        "or step");
   });
 }
 
 int refuse(lua_State* L) {
-  return guard(L, [&]() -> int { fail("a rule's symbol cannot be called, measured or joined to text; rules only compute"); });
+  return guard(
+      L, [&]() -> int { fail("a rule's symbol cannot be called, measured or joined to text; rules only compute"); });
 }
 
 int to_text(lua_State* L) {
@@ -183,14 +190,19 @@ int index(lua_State* L) {
     if (s.type != Symbol::Type::value) check_frame(t, s);
     const std::string name = check_string(L, 2, "a column's name");
     switch (s.type) {
-      case Symbol::Type::cell: return index_cell(L, t, s, name);
-      case Symbol::Type::side: return index_side(L, t, s, name);
-      case Symbol::Type::wall: push_value(L, t, t.read(Kind::wall, name)); return 1;
+      case Symbol::Type::cell:
+        return index_cell(L, t, s, name);
+      case Symbol::Type::side:
+        return index_side(L, t, s, name);
+      case Symbol::Type::wall:
+        push_value(L, t, t.read(Kind::wall, name));
+        return 1;
       case Symbol::Type::rates:
         for (const auto& [column, node] : t.written)
           if (column == name) return push_value(L, t, node), 1;
         fail("d.{} is read before it is set", name);
-      case Symbol::Type::value: break;
+      case Symbol::Type::value:
+        break;
     }
     fail("a number has no field '{}'", name);
   });
@@ -201,9 +213,12 @@ int assign(lua_State* L) {
     Tracer& t = tracer(L);
     const Symbol s = *symbol_at(L, 1);
     const std::string name = check_string(L, 2, "a column's name");
-    const bool subject = s.type == Symbol::Type::rates || (t.deriving && s.type != Symbol::Type::value && s.view == View::here &&
-                                                            !s.mirrored && s.frame == (s.type == Symbol::Type::cell ? t.context.cell_frame : t.context.body_frame));
-    if (!subject) fail("'{}' cannot be set here: a derive rule sets columns of its own {}, a rate rule those of d", name, "element");
+    const bool subject = s.type == Symbol::Type::rates ||
+                         (t.deriving && s.type != Symbol::Type::value && s.view == View::here && !s.mirrored &&
+                          s.frame == (s.type == Symbol::Type::cell ? t.context.cell_frame : t.context.body_frame));
+    if (!subject)
+      fail("'{}' cannot be set here: a derive rule sets columns of its own {}, a rate rule those of d", name,
+           "element");
     const NodeId node = node_at(L, t, 3);
     for (auto& [column, old] : t.written)
       if (column == name) return old = node, 0;
@@ -217,7 +232,8 @@ int assign(lua_State* L) {
 template <Op op, int arguments>
 int function(lua_State* L) {
   return guard(L, [&] {
-    if (lua_gettop(L) < arguments) fail("expected {} argument{}, got {}", arguments, arguments == 1 ? "" : "s", lua_gettop(L));
+    if (lua_gettop(L) < arguments)
+      fail("expected {} argument{}, got {}", arguments, arguments == 1 ? "" : "s", lua_gettop(L));
     bool symbolic = false;
     for (int i = 1; i <= arguments; ++i) symbolic = symbolic || symbol_at(L, i);
     if (symbolic) {
@@ -225,7 +241,10 @@ int function(lua_State* L) {
       Graph& g = t.equations->graph;
       NodeId x[3] = {no_node, no_node, no_node};
       for (int i = 0; i < arguments; ++i) x[i] = node_at(L, t, i + 1);
-      push_value(L, t, op == Op::select ? g.select(x[0], x[1], x[2]) : arguments == 1 ? g.unary(op, x[0]) : g.binary(op, x[0], x[1]));
+      push_value(L, t,
+                 op == Op::select ? g.select(x[0], x[1], x[2])
+                 : arguments == 1 ? g.unary(op, x[0])
+                                  : g.binary(op, x[0], x[1]));
       return 1;
     }
     double x[3] = {0, 0, 0};
@@ -321,7 +340,9 @@ Assignments Tracer::trace_rate(lua_State* L, Kind kind) {
   context = {++frames, ++frames};
   written.clear();
   deriving = false;
-  const Symbol::Type type = kind == Kind::cell ? Symbol::Type::cell : kind == Kind::side ? Symbol::Type::side : Symbol::Type::wall;
+  const Symbol::Type type = kind == Kind::cell   ? Symbol::Type::cell
+                            : kind == Kind::side ? Symbol::Type::side
+                                                 : Symbol::Type::wall;
   push(L, type, kind == Kind::cell ? context.cell_frame : context.body_frame);
   push(L, Symbol::Type::rates, kind == Kind::cell ? context.cell_frame : context.body_frame);
   int arguments = 2;
@@ -359,18 +380,20 @@ void register_symbols(lua_State* L) {
   luaL_newmetatable(L, metatable);
   const luaL_Reg events[] = {{"__add", binary<Op::add>}, {"__sub", binary<Op::sub>}, {"__mul", binary<Op::mul>},
                              {"__div", binary<Op::div>}, {"__pow", binary<Op::pow>}, {"__unm", negate},
-                             {"__eq", compare}, {"__lt", compare}, {"__le", compare}, {"__concat", refuse}, {"__len", refuse},
-                             {"__call", refuse}, {"__mod", refuse}, {"__index", index}, {"__newindex", assign},
-                             {"__tostring", to_text}, {nullptr, nullptr}};
+                             {"__eq", compare},          {"__lt", compare},          {"__le", compare},
+                             {"__concat", refuse},       {"__len", refuse},          {"__call", refuse},
+                             {"__mod", refuse},          {"__index", index},         {"__newindex", assign},
+                             {"__tostring", to_text},    {nullptr, nullptr}};
   add_functions(L, events);
   lua_pushboolean(L, 0);
   lua_setfield(L, -2, "__metatable");
   lua_pop(L, 1);
 
   const luaL_Reg functions[] = {
-      {"exp", function<Op::exp, 1>}, {"log", function<Op::log, 1>}, {"sqrt", function<Op::sqrt, 1>}, {"sin", function<Op::sin, 1>},
-      {"cos", function<Op::cos, 1>}, {"tanh", function<Op::tanh, 1>}, {"abs", function<Op::abs, 1>}, {"pow", function<Op::pow, 2>},
-      {"min", extreme<Op::min>}, {"max", extreme<Op::max>}, {"below", function<Op::less, 2>}, {"at_most", function<Op::less_equal, 2>},
+      {"exp", function<Op::exp, 1>},     {"log", function<Op::log, 1>},      {"sqrt", function<Op::sqrt, 1>},
+      {"sin", function<Op::sin, 1>},     {"cos", function<Op::cos, 1>},      {"tanh", function<Op::tanh, 1>},
+      {"abs", function<Op::abs, 1>},     {"pow", function<Op::pow, 2>},      {"min", extreme<Op::min>},
+      {"max", extreme<Op::max>},         {"below", function<Op::less, 2>},   {"at_most", function<Op::less_equal, 2>},
       {"equal", function<Op::equal, 2>}, {"where", function<Op::select, 3>}, {nullptr, nullptr}};
   lua_newtable(L);
   add_functions(L, functions);

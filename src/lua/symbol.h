@@ -2,7 +2,6 @@
 #pragma once
 
 #include <lua.hpp>
-
 #include <map>
 #include <memory>
 #include <string>
@@ -19,14 +18,13 @@ using Assignments = std::vector<std::pair<std::string, NodeId>>;
 
 /// Calls rules with symbols in place of numbers and notes what they compute. One at a time per Lua state.
 ///
-/// Symbols carry the frame they belong to: the cell of the rule, or the body of a sum over neighbours. A value of another
-/// frame cannot be used, so that a sum within a sum never mistakes one cell for another.
+/// Symbols carry the frame they belong to: the cell of the rule, or the body of a sum over neighbours. A value of
+/// another frame cannot be used, so that a sum within a sum never mistakes one cell for another.
 class Tracer {
  public:
   enum class View : uint8_t { here, own, across };  ///< a cell: of a cell rule; of a side; across a side
 
-  Tracer(std::shared_ptr<Equations> e, std::shared_ptr<Tissue> t)
-      : equations(std::move(e)), tissue(std::move(t)) {}
+  Tracer(std::shared_ptr<Equations> e, std::shared_ptr<Tissue> t) : equations(std::move(e)), tissue(std::move(t)) {}
 
   /// Calls the function on top of the stack (popped) with symbols. Errors: ScriptError or Error with the reason.
   /// derive: f(c, t), or for sides f(s, t), for walls f(w, a, b, t);
@@ -55,8 +53,8 @@ class Tracer {
 /// True if the value at `at` is a symbol of any kind.
 bool is_symbol(lua_State* L, int at);
 
-/// Adds to the module on top of the stack: `functions`, those of rules (exp, where, ...), which take numbers and symbols,
-/// and `parameter_symbol(name)`.
+/// Adds to the module on top of the stack: `functions`, those of rules (exp, where, ...), which take numbers and
+/// symbols, and `parameter_symbol(name)`.
 void register_symbols(lua_State* L);
 
 /// The tracer at work in this state, or null.

@@ -9,10 +9,10 @@
 
 namespace tunica {
 
-/// What a rule gives a column: a cell value for a cell column, a side value for a side or wall column (a wall's value is
-/// that of its first side).
+/// What a rule gives a column: a cell value for a cell column, a side value for a side or wall column (a wall's value
+/// is that of its first side).
 struct Target {
-  int column;         ///< slot in Equations::columns
+  int column;  ///< slot in Equations::columns
   NodeId value;
   std::string where;  ///< the rule's place in the script, for messages
 };
@@ -36,14 +36,15 @@ struct Equations {
   struct Derivation {
     std::vector<Target> traced;
     int direct = -1;
-    bool materialise = false;  ///< later rules read the columns, not the expressions (walls, which have two orientations)
+    bool materialise =
+        false;  ///< later rules read the columns, not the expressions (walls, which have two orientations)
   };
 
   Graph graph;
   std::vector<ColumnRef> columns;
   std::vector<std::string> parameters;
   std::vector<Derivation> derivations;
-  std::vector<Target> rates;       ///< d(column)/dt; contributions to one column are added
+  std::vector<Target> rates;  ///< d(column)/dt; contributions to one column are added
   std::vector<DirectRule> direct_derivations, direct_rates;
 
   int column_slot(Kind kind, const std::string& name) {

@@ -16,45 +16,66 @@ bool is_binary(Op op) { return op >= Op::add && op <= Op::equal; }
 
 const char* name_of(Op op) {
   static constexpr const char* names[] = {
-      "constant", "parameter", "time",    "cell", "wall",       "side",  "own",      "across",   "mirrored",
-      "neg",      "exp",       "log",     "sqrt", "sin",        "cos",   "tanh",     "abs",      "add",
-      "sub",      "mul",       "div",     "pow",  "min",        "max",   "less",     "less_equal", "equal",
-      "select",   "sum",       "flux_sum", "minimum", "maximum", "gather", "edge_sum", "edge_minimum", "edge_maximum",
-      "wall_sum"};
+      "constant", "parameter",  "time",         "cell",         "wall",    "side",     "own",     "across",
+      "mirrored", "neg",        "exp",          "log",          "sqrt",    "sin",      "cos",     "tanh",
+      "abs",      "add",        "sub",          "mul",          "div",     "pow",      "min",     "max",
+      "less",     "less_equal", "equal",        "select",       "sum",     "flux_sum", "minimum", "maximum",
+      "gather",   "edge_sum",   "edge_minimum", "edge_maximum", "wall_sum"};
   return names[static_cast<int>(op)];
 }
 
 double apply(Op op, double a, double b, double c) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   switch (op) {
-    case Op::neg: return -a;
-    case Op::exp: return std::exp(a);
-    case Op::log: return std::log(a);
-    case Op::sqrt: return std::sqrt(a);
-    case Op::sin: return std::sin(a);
-    case Op::cos: return std::cos(a);
-    case Op::tanh: return std::tanh(a);
-    case Op::abs: return std::fabs(a);
-    case Op::add: return a + b;
-    case Op::sub: return a - b;
-    case Op::mul: return a * b;
-    case Op::div: return a / b;
-    case Op::pow: return std::pow(a, b);
-    case Op::min: return std::isnan(a) ? a : (a < b ? a : b);
-    case Op::max: return std::isnan(a) ? a : (a > b ? a : b);
-    case Op::less: return std::isnan(a) || std::isnan(b) ? nan : (a < b ? 1.0 : 0.0);
-    case Op::less_equal: return std::isnan(a) || std::isnan(b) ? nan : (a <= b ? 1.0 : 0.0);
-    case Op::equal: return std::isnan(a) || std::isnan(b) ? nan : (a == b ? 1.0 : 0.0);
-    case Op::select: return std::isnan(a) ? nan : (a != 0.0 ? b : c);
-    default: fail("internal: {} is not elementwise", name_of(op));
+    case Op::neg:
+      return -a;
+    case Op::exp:
+      return std::exp(a);
+    case Op::log:
+      return std::log(a);
+    case Op::sqrt:
+      return std::sqrt(a);
+    case Op::sin:
+      return std::sin(a);
+    case Op::cos:
+      return std::cos(a);
+    case Op::tanh:
+      return std::tanh(a);
+    case Op::abs:
+      return std::fabs(a);
+    case Op::add:
+      return a + b;
+    case Op::sub:
+      return a - b;
+    case Op::mul:
+      return a * b;
+    case Op::div:
+      return a / b;
+    case Op::pow:
+      return std::pow(a, b);
+    case Op::min:
+      return std::isnan(a) ? a : (a < b ? a : b);
+    case Op::max:
+      return std::isnan(a) ? a : (a > b ? a : b);
+    case Op::less:
+      return std::isnan(a) || std::isnan(b) ? nan : (a < b ? 1.0 : 0.0);
+    case Op::less_equal:
+      return std::isnan(a) || std::isnan(b) ? nan : (a <= b ? 1.0 : 0.0);
+    case Op::equal:
+      return std::isnan(a) || std::isnan(b) ? nan : (a == b ? 1.0 : 0.0);
+    case Op::select:
+      return std::isnan(a) ? nan : (a != 0.0 ? b : c);
+    default:
+      fail("internal: {} is not elementwise", name_of(op));
   }
 }
 
 size_t Graph::Hash::operator()(const Node& n) const {
   uint64_t h = (static_cast<uint64_t>(n.op) << 8) | static_cast<uint64_t>(n.domain);
-  for (const uint64_t part : {static_cast<uint64_t>(static_cast<uint32_t>(n.a)), static_cast<uint64_t>(static_cast<uint32_t>(n.b)),
-                              static_cast<uint64_t>(static_cast<uint32_t>(n.c)), static_cast<uint64_t>(static_cast<uint32_t>(n.slot)),
-                              std::bit_cast<uint64_t>(n.value)}) {
+  for (const uint64_t part :
+       {static_cast<uint64_t>(static_cast<uint32_t>(n.a)), static_cast<uint64_t>(static_cast<uint32_t>(n.b)),
+        static_cast<uint64_t>(static_cast<uint32_t>(n.c)), static_cast<uint64_t>(static_cast<uint32_t>(n.slot)),
+        std::bit_cast<uint64_t>(n.value)}) {
     h = (h ^ part) * 0x9E3779B97F4A7C15ull;
     h ^= h >> 29;
   }
@@ -81,10 +102,14 @@ NodeId Graph::time() { return intern({.op = Op::time, .domain = Domain::scalar})
 
 NodeId Graph::column(Kind kind, int slot) {
   switch (kind) {
-    case Kind::cell: return intern({.op = Op::cell_column, .domain = Domain::cell, .slot = slot});
-    case Kind::wall: return intern({.op = Op::wall_column, .domain = Domain::side, .slot = slot});
-    case Kind::side: return intern({.op = Op::side_column, .domain = Domain::side, .slot = slot});
-    default: fail("internal: rules have no junction columns");
+    case Kind::cell:
+      return intern({.op = Op::cell_column, .domain = Domain::cell, .slot = slot});
+    case Kind::wall:
+      return intern({.op = Op::wall_column, .domain = Domain::side, .slot = slot});
+    case Kind::side:
+      return intern({.op = Op::side_column, .domain = Domain::side, .slot = slot});
+    default:
+      fail("internal: rules have no junction columns");
   }
 }
 
@@ -166,7 +191,8 @@ NodeId Graph::fold(const Node& node) {
     case Op::neg:
       if (nodes_[node.a].op == Op::neg) return nodes_[node.a].a;
       break;
-    default: break;
+    default:
+      break;
   }
   return intern(node);
 }
@@ -209,13 +235,18 @@ NodeId Graph::reduce(Op op, NodeId side_value) {
 std::string Graph::text(NodeId id) const {
   const Node& n = nodes_[id];
   switch (n.op) {
-    case Op::constant: return fmt::format("{}", n.value);
-    case Op::parameter: return fmt::format("P{}", n.slot);
-    case Op::time: return "t";
+    case Op::constant:
+      return fmt::format("{}", n.value);
+    case Op::parameter:
+      return fmt::format("P{}", n.slot);
+    case Op::time:
+      return "t";
     case Op::cell_column:
     case Op::wall_column:
-    case Op::side_column: return fmt::format("{}{}", name_of(n.op), n.slot);
-    default: break;
+    case Op::side_column:
+      return fmt::format("{}{}", name_of(n.op), n.slot);
+    default:
+      break;
   }
   std::string s = std::string(name_of(n.op)) + "(" + text(n.a);
   if (n.b != no_node) s += ", " + text(n.b);

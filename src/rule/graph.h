@@ -19,16 +19,47 @@ enum class Domain : uint8_t { scalar, cell, side };
 
 enum class Op : uint8_t {
   // leaves
-  constant, parameter, time, cell_column, wall_column, side_column,
+  constant,
+  parameter,
+  time,
+  cell_column,
+  wall_column,
+  side_column,
   // a cell's value seen from one of its sides (own), or from a neighbour's (across); a side's value seen from across
-  own, across, mirrored,
+  own,
+  across,
+  mirrored,
   // arithmetic, element by element
-  neg, exp, log, sqrt, sin, cos, tanh, abs,
-  add, sub, mul, div, pow, min, max, less, less_equal, equal, select,
+  neg,
+  exp,
+  log,
+  sqrt,
+  sin,
+  cos,
+  tanh,
+  abs,
+  add,
+  sub,
+  mul,
+  div,
+  pow,
+  min,
+  max,
+  less,
+  less_equal,
+  equal,
+  select,
   // over the sides of a cell that have a neighbour: side values to one cell value
-  sum, flux_sum, minimum, maximum,
+  sum,
+  flux_sum,
+  minimum,
+  maximum,
   // only after lowering: sums with the neighbour's factor gathered (b: weight, value: 1 for differences)
-  gather, edge_sum, edge_minimum, edge_maximum, wall_sum,
+  gather,
+  edge_sum,
+  edge_minimum,
+  edge_maximum,
+  wall_sum,
 };
 
 bool is_leaf(Op op);
@@ -40,8 +71,8 @@ struct Node {
   Op op;
   Domain domain;
   NodeId a = no_node, b = no_node, c = no_node;
-  int32_t slot = 0;   ///< of a column or parameter
-  double value = 0;   ///< of a constant; 1 marks a gather of differences
+  int32_t slot = 0;  ///< of a column or parameter
+  double value = 0;  ///< of a constant; 1 marks a gather of differences
 };
 
 /// An expression graph: every node once (equal nodes are the same node), operands before the nodes that use them.
@@ -54,8 +85,8 @@ class Graph {
   NodeId time();
   NodeId column(Kind kind, int slot);  ///< kind: cell, wall or side
 
-  NodeId own(NodeId cell_value);     ///< cell or scalar -> side
-  NodeId across(NodeId cell_value);  ///< cell or scalar -> side
+  NodeId own(NodeId cell_value);       ///< cell or scalar -> side
+  NodeId across(NodeId cell_value);    ///< cell or scalar -> side
   NodeId mirrored(NodeId side_value);  ///< the same expression seen from the other cell
 
   NodeId unary(Op op, NodeId a);

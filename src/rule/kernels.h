@@ -5,7 +5,8 @@
 
 #include "rule/code.h"
 
-// Included by sources compiled for one instruction set: plain data only, no library code that could be linked in elsewhere.
+// Included by sources compiled for one instruction set: plain data only, no library code that could be linked in
+// elsewhere.
 
 namespace tunica {
 
@@ -54,8 +55,9 @@ inline constexpr uint8_t not_finite = 1, negative = 2;
 /// The inner loops, one set per instruction set; all sets give the same bits.
 struct Kernels {
   const char* name;
-  void (*elementwise[static_cast<int>(Code::elementwise_count)][8])(const Operands&);  ///< [.][mask]: bit 0, 1, 2 = a, b, c scalar
-  void (*gather[3])(const GatherArguments&);  ///< rows of 1, 2, 4
+  void (*elementwise[static_cast<int>(Code::elementwise_count)][8])(
+      const Operands&);                        ///< [.][mask]: bit 0, 1, 2 = a, b, c scalar
+  void (*gather[3])(const GatherArguments&);   ///< rows of 1, 2, 4
   void (*gather_two)(const GatherArguments&);  ///< straight from two columns
   void (*pack[3])(double* rows, const double* const* values, int count);
   /// Sum, minimum, maximum of a value per half-edge over the cells of a block.

@@ -5,7 +5,8 @@
 
 namespace tunica {
 
-Layout::Layout(const Tissue& tissue) : cells(tissue.cells()), blocks((cells + block_size - 1) / block_size), edges(0), walls(0) {
+Layout::Layout(const Tissue& tissue)
+    : cells(tissue.cells()), blocks((cells + block_size - 1) / block_size), edges(0), walls(0) {
   neighbour_count.resize(static_cast<size_t>(blocks) * block_size);
   position.reserve(cells);
   run_begin.reserve(blocks + 1);
@@ -65,7 +66,8 @@ Layout::Layout(const Tissue& tissue) : cells(tissue.cells()), blocks((cells + bl
   }
   walls = static_cast<Index>(primary.size());
   wall_code.resize(edges);
-  for (Index e = 0; e < edges; ++e) wall_code[e] = 2 * place[wall[e]] + (tissue.wall_side(wall[e], 0) == side[e] ? 0 : 1);
+  for (Index e = 0; e < edges; ++e)
+    wall_code[e] = 2 * place[wall[e]] + (tissue.wall_side(wall[e], 0) == side[e] ? 0 : 1);
 }
 
 LayoutView Layout::view() const {

@@ -34,11 +34,13 @@ NodeId Lowering::lower(NodeId id) {
 NodeId Lowering::lower_sum(const Node& node) {
   const NodeId body = lower(node.a);
   if (node.op == Op::minimum || node.op == Op::maximum)
-    return graph_.intern({.op = node.op == Op::minimum ? Op::edge_minimum : Op::edge_maximum, .domain = Domain::cell, .a = body});
+    return graph_.intern(
+        {.op = node.op == Op::minimum ? Op::edge_minimum : Op::edge_maximum, .domain = Domain::cell, .a = body});
   std::vector<Monomial> terms;
   if (separate(graph_, body, terms)) return sum_of(terms);
   // A flux has the same size seen from both cells: once per wall is enough.
-  return graph_.intern({.op = node.op == Op::flux_sum ? Op::wall_sum : Op::edge_sum, .domain = Domain::cell, .a = body});
+  return graph_.intern(
+      {.op = node.op == Op::flux_sum ? Op::wall_sum : Op::edge_sum, .domain = Domain::cell, .a = body});
 }
 
 NodeId Lowering::sum_of(const std::vector<Monomial>& terms) {
@@ -49,13 +51,18 @@ NodeId Lowering::sum_of(const std::vector<Monomial>& terms) {
   for (const Monomial& m : terms) {
     NodeId gather;
     if (m.neighbour != no_node)
-      gather = graph_.intern({.op = Op::gather, .domain = Domain::cell, .a = m.neighbour, .b = m.weight, .value = m.difference ? 1.0 : 0.0});
+      gather = graph_.intern({.op = Op::gather,
+                              .domain = Domain::cell,
+                              .a = m.neighbour,
+                              .b = m.weight,
+                              .value = m.difference ? 1.0 : 0.0});
     else if (m.weight != no_node)
       gather = graph_.intern({.op = Op::edge_sum, .domain = Domain::cell, .a = m.weight});
     else
       gather = graph_.column(Kind::cell, -1);  // the number of neighbours
     const NodeId own = m.own == no_node ? graph_.constant(1) : m.own;
-    const auto same = std::find_if(gathered.begin(), gathered.end(), [&](const Gathered& g) { return g.gather == gather; });
+    const auto same =
+        std::find_if(gathered.begin(), gathered.end(), [&](const Gathered& g) { return g.gather == gather; });
     if (same == gathered.end())
       gathered.push_back({gather, own});
     else
@@ -89,13 +96,18 @@ bool Lowering::is_fixed(NodeId id) {
   switch (n.op) {
     case Op::time:
     case Op::own:
-    case Op::across: return false;
+    case Op::across:
+      return false;
     case Op::constant:
-    case Op::parameter: return true;
+    case Op::parameter:
+      return true;
     case Op::wall_column:
-    case Op::side_column: return !is_state_[n.slot];
-    case Op::mirrored: return is_fixed(n.a);
-    default: break;
+    case Op::side_column:
+      return !is_state_[n.slot];
+    case Op::mirrored:
+      return is_fixed(n.a);
+    default:
+      break;
   }
   if (n.domain == Domain::cell) return false;
   for (const NodeId x : {n.a, n.b, n.c})

@@ -17,8 +17,8 @@ class Lowering {
 
   NodeId lower(NodeId id);
 
-  /// Round of a value: cell pass `level(x)` computes cell values, the edge (wall) pass after it side values. A neighbour's
-  /// value can be gathered one round after it is computed.
+  /// Round of a value: cell pass `level(x)` computes cell values, the edge (wall) pass after it side values. A
+  /// neighbour's value can be gathered one round after it is computed.
   int level(NodeId id);
 
   /// Side values of columns that change only between steps: computed once while the structure stands.

@@ -14,7 +14,8 @@ namespace {
 using Over = Pass::Over;
 
 bool is_cell_sum(Op op) {
-  return op == Op::gather || op == Op::edge_sum || op == Op::edge_minimum || op == Op::edge_maximum || op == Op::wall_sum;
+  return op == Op::gather || op == Op::edge_sum || op == Op::edge_minimum || op == Op::edge_maximum ||
+         op == Op::wall_sum;
 }
 
 Code code_of(Op op) { return static_cast<Code>(static_cast<int>(op) - static_cast<int>(Op::neg)); }
@@ -95,7 +96,8 @@ class Planner {
       group_of_[id] = static_cast<int>(open - groups_.begin());
     }
     for (Group& g : groups_) {
-      const bool columns = std::none_of(g.gathers.begin(), g.gathers.end(), [&](NodeId id) { return computed(graph_[id].a); });
+      const bool columns =
+          std::none_of(g.gathers.begin(), g.gathers.end(), [&](NodeId id) { return computed(graph_[id].a); });
       if (g.gathers.size() == 1 || (g.gathers.size() == 2 && columns)) continue;
       g.row = static_cast<int>(plan_.row_width.size());
       plan_.row_width.push_back(g.gathers.size() > 2 ? 4 : 2);
@@ -171,9 +173,12 @@ class Planner {
     }
     Instruction i{.code = code_of(n.op)};
     if (is_cell_sum(n.op)) {
-      i.code = n.op == Op::edge_sum ? Code::edge_sum : n.op == Op::edge_minimum ? Code::edge_minimum
-             : n.op == Op::edge_maximum ? Code::edge_maximum : Code::wall_sum;
-      i.a = n.op == Op::wall_sum ? Operand{Place::wall_temp, wall_temp_.at(n.a)} : Operand{Place::edge_temp, edge_temp_.at(n.a)};
+      i.code = n.op == Op::edge_sum       ? Code::edge_sum
+               : n.op == Op::edge_minimum ? Code::edge_minimum
+               : n.op == Op::edge_maximum ? Code::edge_maximum
+                                          : Code::wall_sum;
+      i.a = n.op == Op::wall_sum ? Operand{Place::wall_temp, wall_temp_.at(n.a)}
+                                 : Operand{Place::edge_temp, edge_temp_.at(n.a)};
     } else if (!fuse(e, n, level(id), i, [&](NodeId x) { return cell_value(e, x, now); })) {
       i.a = cell_value(e, n.a, now);
       i.b = cell_value(e, n.b, now);
@@ -188,8 +193,9 @@ class Planner {
   template <class Value>
   bool fuse(const Emitter& e, const Node& n, int at_level, Instruction& i, Value value) {
     const auto product = [&](NodeId x) {
-      return x != no_node && graph_[x].op == Op::mul && graph_[x].domain != Domain::scalar && uses_.at(x) == 1 && !e.where.count(x) &&
-             !kept_.count(x) && !edge_temp_.count(x) && !wall_temp_.count(x) && level(x) == at_level;
+      return x != no_node && graph_[x].op == Op::mul && graph_[x].domain != Domain::scalar && uses_.at(x) == 1 &&
+             !e.where.count(x) && !kept_.count(x) && !edge_temp_.count(x) && !wall_temp_.count(x) &&
+             level(x) == at_level;
     };
     NodeId mul, other;
     if (n.op == Op::add && product(n.a)) {
@@ -223,7 +229,8 @@ class Planner {
     }
     e.pass.code.push_back(i);
     for (const NodeId id : g.gathers)
-      if (kept_.count(id)) e.pass.code.push_back({.code = Code::copy, .dst = {Place::cell_temp, kept_[id]}, .a = e.where[id]});
+      if (kept_.count(id))
+        e.pass.code.push_back({.code = Code::copy, .dst = {Place::cell_temp, kept_[id]}, .a = e.where[id]});
   }
 
   void emit_cells(int now) {
@@ -304,7 +311,8 @@ class Planner {
     for (const auto& [id, temp] : temps) {
       if (level(id) != now || (over == Over::edges && lowering_.is_fixed(id))) continue;
       const Operand a = side_value(e, id);
-      e.pass.code.push_back({.code = Code::copy, .dst = {over == Over::edges ? Place::edge_temp : Place::wall_temp, temp}, .a = a});
+      e.pass.code.push_back(
+          {.code = Code::copy, .dst = {over == Over::edges ? Place::edge_temp : Place::wall_temp, temp}, .a = a});
     }
     const Kind kind = over == Over::edges ? Kind::side : Kind::wall;
     for (const Output& o : outputs_) {
@@ -325,7 +333,8 @@ class Planner {
       for (const auto& [id, temp] : over == Over::edges ? edge_temp_ : fixed_wall_temp_) {
         if (!lowering_.is_fixed(id)) continue;
         const Operand a = side_value(e, id);
-        e.pass.code.push_back({.code = Code::copy, .dst = {over == Over::edges ? Place::edge_temp : Place::wall_temp, temp}, .a = a});
+        e.pass.code.push_back(
+            {.code = Code::copy, .dst = {over == Over::edges ? Place::edge_temp : Place::wall_temp, temp}, .a = a});
       }
       finish(e);
     }

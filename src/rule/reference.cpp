@@ -33,7 +33,8 @@ Measured Reference::reduce(const Node& n, Index cell) const {
         else if (!any)
           total = x;
         else
-          total = {apply(n.op == Op::minimum ? Op::min : Op::max, total.value, x.value, 0), std::max(total.magnitude, x.magnitude)};
+          total = {apply(n.op == Op::minimum ? Op::min : Op::max, total.value, x.value, 0),
+                   std::max(total.magnitude, x.magnitude)};
         any = true;
       }
       s = tissue_.next(s);
@@ -44,20 +45,31 @@ Measured Reference::reduce(const Node& n, Index cell) const {
 Measured Reference::evaluate(NodeId id, Index cell, Index side) const {
   const Node& n = equations_.graph[id];
   switch (n.op) {
-    case Op::constant: return {n.value, std::fabs(n.value)};
-    case Op::parameter: return {parameters_.at(n.slot), std::fabs(parameters_.at(n.slot))};
-    case Op::time: return {time_, std::fabs(time_)};
-    case Op::cell_column: return column(Kind::cell, n.slot, cell);
-    case Op::wall_column: return column(Kind::wall, n.slot, tissue_.wall_of(side));
-    case Op::side_column: return column(Kind::side, n.slot, side);
-    case Op::own: return evaluate(n.a, tissue_.cell_of(side), none);
-    case Op::across: return evaluate(n.a, tissue_.neighbour(side), none);
-    case Op::mirrored: return evaluate(n.a, none, tissue_.opposite(side));
+    case Op::constant:
+      return {n.value, std::fabs(n.value)};
+    case Op::parameter:
+      return {parameters_.at(n.slot), std::fabs(parameters_.at(n.slot))};
+    case Op::time:
+      return {time_, std::fabs(time_)};
+    case Op::cell_column:
+      return column(Kind::cell, n.slot, cell);
+    case Op::wall_column:
+      return column(Kind::wall, n.slot, tissue_.wall_of(side));
+    case Op::side_column:
+      return column(Kind::side, n.slot, side);
+    case Op::own:
+      return evaluate(n.a, tissue_.cell_of(side), none);
+    case Op::across:
+      return evaluate(n.a, tissue_.neighbour(side), none);
+    case Op::mirrored:
+      return evaluate(n.a, none, tissue_.opposite(side));
     case Op::sum:
     case Op::flux_sum:
     case Op::minimum:
-    case Op::maximum: return reduce(n, cell);
-    default: break;
+    case Op::maximum:
+      return reduce(n, cell);
+    default:
+      break;
   }
   const auto operand = [&](NodeId x) { return x == no_node ? Measured{0, 0} : evaluate(x, cell, side); };
   const Measured a = operand(n.a), b = operand(n.b), c = operand(n.c);

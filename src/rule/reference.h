@@ -14,8 +14,8 @@ struct Measured {
   double magnitude;
 };
 
-/// Evaluates one node at one place by walking its graph, straight from the definitions: slow, and independent of lowering
-/// and kernels, which are checked against it. Reads the tissue's columns.
+/// Evaluates one node at one place by walking its graph, straight from the definitions: slow, and independent of
+/// lowering and kernels, which are checked against it. Reads the tissue's columns.
 class Reference {
  public:
   Reference(const Equations& equations, const Tissue& tissue, const std::vector<double>& parameters, double time)

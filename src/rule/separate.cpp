@@ -107,7 +107,8 @@ bool separate(Graph& g, NodeId id, std::vector<Monomial>& terms) {
       return true;
     case Op::div:
       return separate(g, n.a, a) && separate(g, n.b, b) && b.size() == 1 && divide(g, a, b[0], terms);
-    default: return false;
+    default:
+      return false;
   }
 }
 

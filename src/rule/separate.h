@@ -7,8 +7,8 @@
 
 namespace tunica {
 
-/// One term of a neighbour sum: own x sum(weight x neighbour), where the neighbour's factor is a value of the neighbour or
-/// the difference between the neighbour's and the cell's own value. Missing factors are no_node.
+/// One term of a neighbour sum: own x sum(weight x neighbour), where the neighbour's factor is a value of the neighbour
+/// or the difference between the neighbour's and the cell's own value. Missing factors are no_node.
 struct Monomial {
   NodeId own = no_node;        ///< cell or scalar
   NodeId weight = no_node;     ///< side value of wall and side columns only

@@ -50,20 +50,30 @@ Address System::Sweep::address(const Operand& o) const {
     return Address{Address::Base::memory, buffer.data() + buffer.size() / std::max(1, parts) * o.index};
   };
   switch (o.place) {
-    case Place::nowhere: return {};
-    case Place::scalar: return {.scalar = compiled.scalars.data() + o.index};
-    case Place::reg: return {Address::Base::registers, nullptr, static_cast<size_t>(o.index) * block_size};
-    case Place::column: return column(o.index);
-    case Place::cell_temp: return part(compiled.cell_temps, compiled.plan.cell_temps);
-    case Place::edge_temp: return part(compiled.edge_temps, compiled.plan.edge_temps);
-    case Place::wall_temp: return part(compiled.wall_temps, compiled.plan.wall_temps);
+    case Place::nowhere:
+      return {};
+    case Place::scalar:
+      return {.scalar = compiled.scalars.data() + o.index};
+    case Place::reg:
+      return {Address::Base::registers, nullptr, static_cast<size_t>(o.index) * block_size};
+    case Place::column:
+      return column(o.index);
+    case Place::cell_temp:
+      return part(compiled.cell_temps, compiled.plan.cell_temps);
+    case Place::edge_temp:
+      return part(compiled.edge_temps, compiled.plan.edge_temps);
+    case Place::wall_temp:
+      return part(compiled.wall_temps, compiled.plan.wall_temps);
   }
   return {};
 }
 
 const int32_t* System::Sweep::index(Code code, Pass::Over over) const {
-  const int which = code == Code::fetch_own ? 0 : code == Code::fetch_across ? 1 : code == Code::fetch_wall ? 2
-                  : code == Code::fetch_side ? 3 : 4;
+  const int which = code == Code::fetch_own      ? 0
+                    : code == Code::fetch_across ? 1
+                    : code == Code::fetch_wall   ? 2
+                    : code == Code::fetch_side   ? 3
+                                                 : 4;
   if (over == Pass::Over::walls) return system.wall_indices_[which].data();
   const Layout& l = *system.layout_;
   const std::vector<int32_t>* lists[] = {&l.own, &l.across, &l.wall, &l.side, &l.mirror};
@@ -104,8 +114,11 @@ Bound System::Sweep::bind(const Instruction& i, Pass::Over over) const {
       b.state = i.is_rate ? system.state_of_column_[i.column] : -1;
       if (!i.is_rate) b.dst = {Address::Base::memory, column_to_write(i.column)};
       break;
-    case Code::rate: b.state = system.state_of_column_[i.column]; break;
-    default: break;
+    case Code::rate:
+      b.state = system.state_of_column_[i.column];
+      break;
+    default:
+      break;
   }
   return b;
 }
@@ -122,10 +135,14 @@ void System::Sweep::bind() {
 
 double* System::Sweep::at(const Address& a, Index first, double* registers) const {
   switch (a.base) {
-    case Address::Base::memory: return a.memory + first;
-    case Address::Base::state: return const_cast<double*>(y) + a.offset + first;
-    case Address::Base::registers: return registers + a.offset;
-    case Address::Base::nowhere: break;
+    case Address::Base::memory:
+      return a.memory + first;
+    case Address::Base::state:
+      return const_cast<double*>(y) + a.offset + first;
+    case Address::Base::registers:
+      return registers + a.offset;
+    case Address::Base::nowhere:
+      break;
   }
   return nullptr;
 }
@@ -142,7 +159,14 @@ void System::Sweep::rate(const Bound& b, Index first, Index count, double* regis
   const double* values = at(b.a, first, registers);
   if (b.instruction->fused) {
     const auto place = [&](const Address& a) { return at(a, first, registers); };
-    const Operands o{y_new ? nullptr : dydt + offset, values, place(b.b), place(b.c), value_of(b.a), value_of(b.b), value_of(b.c), count};
+    const Operands o{y_new ? nullptr : dydt + offset,
+                     values,
+                     place(b.b),
+                     place(b.c),
+                     value_of(b.a),
+                     value_of(b.b),
+                     value_of(b.c),
+                     count};
     const int mask = (o.a ? 0 : 1) | (o.b ? 0 : 2) | (o.c ? 0 : 4);
     if (y_new)
       flags[b.state] |= k.advance_multiply_add[mask]({y + offset, nullptr, 0, h, y_new + offset, count}, o);
@@ -177,7 +201,10 @@ void System::Sweep::cells(const std::vector<Bound>& code, Index block, double* r
         break;
       }
       case Code::gather: {
-        GatherArguments g{.layout = &view, .block = block, .weights = b.source.memory, .difference = b.difference,
+        GatherArguments g{.layout = &view,
+                          .block = block,
+                          .weights = b.source.memory,
+                          .difference = b.difference,
                           .columns = static_cast<int>(b.values.size())};
         for (size_t j = 0; j < b.values.size(); ++j) g.out[j] = place(b.values[j]);
         if (i.row >= 0) {
@@ -189,12 +216,23 @@ void System::Sweep::cells(const std::vector<Bound>& code, Index block, double* r
         }
         break;
       }
-      case Code::edge_sum: k.edge_sum(view, block, b.a.memory, place(b.dst)); break;
-      case Code::edge_minimum: k.edge_minimum(view, block, b.a.memory, place(b.dst)); break;
-      case Code::edge_maximum: k.edge_maximum(view, block, b.a.memory, place(b.dst)); break;
-      case Code::wall_sum: k.wall_sum(view, block, b.a.memory, place(b.dst)); break;
-      case Code::rate: rate(b, first, count, registers, flags); break;
-      default: fail("internal: instruction {} in a cell pass", static_cast<int>(i.code));
+      case Code::edge_sum:
+        k.edge_sum(view, block, b.a.memory, place(b.dst));
+        break;
+      case Code::edge_minimum:
+        k.edge_minimum(view, block, b.a.memory, place(b.dst));
+        break;
+      case Code::edge_maximum:
+        k.edge_maximum(view, block, b.a.memory, place(b.dst));
+        break;
+      case Code::wall_sum:
+        k.wall_sum(view, block, b.a.memory, place(b.dst));
+        break;
+      case Code::rate:
+        rate(b, first, count, registers, flags);
+        break;
+      default:
+        fail("internal: instruction {} in a cell pass", static_cast<int>(i.code));
     }
   }
 }
@@ -215,7 +253,8 @@ void System::Sweep::sides(const std::vector<Bound>& code, Index first, Index cou
   }
 }
 
-void System::Sweep::work(const Pass& p, const std::vector<Bound>& code, Index from, Index to, double* registers, uint8_t* flags) const {
+void System::Sweep::work(const Pass& p, const std::vector<Bound>& code, Index from, Index to, double* registers,
+                         uint8_t* flags) const {
   const Layout& l = *system.layout_;
   const Index elements = p.over == Pass::Over::edges ? l.edges : l.walls;
   for (Index block = from; block < to; ++block) {
@@ -239,7 +278,8 @@ void System::Sweep::pass(const Pass& p, const std::vector<Bound>& code) {
 #pragma omp parallel for num_threads(threads) schedule(static, 1)
   for (int thread = 0; thread < threads; ++thread)
     work(p, code, static_cast<Index>(static_cast<int64_t>(blocks) * thread / threads),
-         static_cast<Index>(static_cast<int64_t>(blocks) * (thread + 1) / threads), system.registers_[thread].data(), flags[thread].data());
+         static_cast<Index>(static_cast<int64_t>(blocks) * (thread + 1) / threads), system.registers_[thread].data(),
+         flags[thread].data());
   for (const auto& found : flags)
     for (size_t k = 0; k < found.size(); ++k) system.flags_[k] |= found[k];
 }

@@ -19,10 +19,10 @@ struct Bound {
   void (*kernel)(const Operands&) = nullptr;
   Address dst, a, b, c;
   std::vector<Address> values, sources;
-  Address source;                  ///< fetch: the column; gather: the weights
+  Address source;  ///< fetch: the column; gather: the weights
   const int32_t* index = nullptr;
   uint32_t difference = 0;
-  int state = -1;                  ///< of the column whose rate is given
+  int state = -1;  ///< of the column whose rate is given
 };
 
 /// One evaluation of a plan: every pass block by block.
@@ -31,7 +31,7 @@ struct System::Sweep {
   Compiled& compiled;
   double t;
   const double* y;
-  double* dydt;   ///< null in an Euler sweep
+  double* dydt;  ///< null in an Euler sweep
   double h;
   double* y_new;  ///< null when derivatives are asked for
 
@@ -42,7 +42,8 @@ struct System::Sweep {
  private:
   void scalars();
   void pass(const Pass& pass, const std::vector<Bound>& code);
-  void work(const Pass& pass, const std::vector<Bound>& code, Index from, Index to, double* registers, uint8_t* flags) const;
+  void work(const Pass& pass, const std::vector<Bound>& code, Index from, Index to, double* registers,
+            uint8_t* flags) const;
   Bound bind(const Instruction& i, Pass::Over over) const;
   Address address(const Operand& o) const;
   Address column(int slot) const;

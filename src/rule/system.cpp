@@ -10,7 +10,10 @@
 namespace tunica {
 
 System::System(std::shared_ptr<Equations> equations, std::shared_ptr<Tissue> tissue, SystemOptions options)
-    : equations_(std::move(equations)), tissue_(std::move(tissue)), options_(options), kernels_(tunica::kernels(options.set)) {
+    : equations_(std::move(equations)),
+      tissue_(std::move(tissue)),
+      options_(options),
+      kernels_(tunica::kernels(options.set)) {
   Equations& e = *equations_;
   std::vector<int> slots;
   for (const Target& rate : e.rates) slots.push_back(rate.column);
@@ -34,7 +37,8 @@ System::System(std::shared_ptr<Equations> equations, std::shared_ptr<Tissue> tis
 
   std::vector<Output> rates;
   for (const Target& rate : e.rates) {
-    const auto same = std::find_if(rates.begin(), rates.end(), [&](const Output& o) { return o.column == rate.column; });
+    const auto same =
+        std::find_if(rates.begin(), rates.end(), [&](const Output& o) { return o.column == rate.column; });
     if (same == rates.end())
       rates.push_back({rate.column, rate.value, true});
     else
@@ -69,7 +73,8 @@ System::Compiled System::compile(const std::vector<Output>& outputs) {
 bool System::has_direct() const {
   const Equations& e = *equations_;
   return !e.direct_derivations.empty() || !e.direct_rates.empty() ||
-         std::any_of(e.derivations.begin(), e.derivations.end(), [](const Equations::Derivation& d) { return d.materialise; });
+         std::any_of(e.derivations.begin(), e.derivations.end(),
+                     [](const Equations::Derivation& d) { return d.materialise; });
 }
 
 size_t System::padded(Kind kind) const {
@@ -174,7 +179,8 @@ const std::vector<uint8_t>& System::euler(double t, const double* y, double h, d
   double* dydt = side_rates_.data();
   rates(t, y, dydt);
   for (size_t k = 0; k < state_.size(); ++k)
-    flags_[k] = kernels_.advance({y + state_[k].offset, dydt + state_[k].offset, 0, h, y_new + state_[k].offset, state_[k].count});
+    flags_[k] = kernels_.advance(
+        {y + state_[k].offset, dydt + state_[k].offset, 0, h, y_new + state_[k].offset, state_[k].count});
   return flags_;
 }
 

@@ -20,25 +20,25 @@ struct SystemOptions {
   const CancelFlag* cancel = nullptr;
 };
 
-/// The equations bound to a tissue: evaluates derivatives of the state. The state is one vector: the state columns (those
-/// that have a rate) one after another, each padded to whole blocks.
+/// The equations bound to a tissue: evaluates derivatives of the state. The state is one vector: the state columns
+/// (those that have a rate) one after another, each padded to whole blocks.
 class System {
  public:
   System(std::shared_ptr<Equations> equations, std::shared_ptr<Tissue> tissue, SystemOptions options = {});
   ~System();
 
   struct StateColumn {
-    int column;      ///< slot in Equations::columns
+    int column;  ///< slot in Equations::columns
     Kind kind;
     std::string name;
-    size_t offset;   ///< into the state vector
+    size_t offset;  ///< into the state vector
     Index count;
   };
   const std::vector<StateColumn>& state() const { return state_; }
   size_t state_size() const { return state_size_; }
 
-  /// To be called after anything outside changed: structure, geometry, columns, parameters. Rebuilds only what is stale.
-  /// `parameters`: one value per Equations::parameters.
+  /// To be called after anything outside changed: structure, geometry, columns, parameters. Rebuilds only what is
+  /// stale. `parameters`: one value per Equations::parameters.
   void prepare(const std::vector<double>& parameters);
 
   void read_state(double* y) const;         ///< from the tissue's columns
@@ -93,8 +93,8 @@ class System {
   std::vector<std::vector<int32_t>> wall_indices_;  ///< own, across, wall, side, mirror per wall, when needed
   uint64_t topology_version_ = 0;
   std::vector<double> parameters_;
-  std::vector<Stage> stages_;   ///< derived columns, cut where a direct rule derives; the last without
-  Compiled main_;               ///< rates
+  std::vector<Stage> stages_;  ///< derived columns, cut where a direct rule derives; the last without
+  Compiled main_;              ///< rates
   std::vector<uint8_t> flags_;
   std::vector<AlignedBuffer> registers_;  ///< per thread
   AlignedBuffer side_rates_, direct_rates_;

@@ -29,15 +29,17 @@ void Integrator::load_state(const std::vector<double>& parameters) {
     const System::StateColumn& s = system_->state()[k];
     const double* first = y_.data() + s.offset;
     for (Index i = 0; i < s.count; ++i)
-      if (!std::isfinite(first[i])) refuse("not finite", k, i, first[i], time(), "it was so before the step; look at what set it");
+      if (!std::isfinite(first[i]))
+        refuse("not finite", k, i, first[i], time(), "it was so before the step; look at what set it");
     const bool meant = std::find(signed_.begin(), signed_.end(), s.name) != signed_.end();
     watch_negative_[k] = !meant && std::none_of(first, first + s.count, [](double v) { return v < 0; });
   }
   alternations_ = 0;
 }
 
-Integrator::Status Integrator::advance(double target, std::optional<double> pause, const std::function<bool()>& out_of_time,
-                                       const CancelFlag* cancel, const std::vector<double>& parameters) {
+Integrator::Status Integrator::advance(double target, std::optional<double> pause,
+                                       const std::function<bool()>& out_of_time, const CancelFlag* cancel,
+                                       const std::vector<double>& parameters) {
   const double slack = 1e-9 * dt_;
   if (target < time() - slack) fail("cannot run backwards, from time {} to {}", time(), target);
   if (target <= time() + slack) return Status::reached;
@@ -90,7 +92,8 @@ void Integrator::check(const std::vector<uint8_t>& flags, double time) {
     const double* values = y_new_.data() + s.offset;
     if (flags[k] & not_finite) {
       for (Index i = 0; i < s.count; ++i)
-        if (!std::isfinite(values[i])) refuse("not finite", k, i, values[i], time, "try a smaller dt, or look for a division by zero in its rule");
+        if (!std::isfinite(values[i]))
+          refuse("not finite", k, i, values[i], time, "try a smaller dt, or look for a division by zero in its rule");
     }
     if ((flags[k] & negative) && watch_negative_[k]) {
       const double* old = y_.data() + s.offset;
@@ -98,7 +101,8 @@ void Integrator::check(const std::vector<uint8_t>& flags, double time) {
       for (Index i = 0; i < s.count; ++i)
         if (values[i] < -1e-9 * largest)
           refuse("negative", k, i, values[i], time,
-                 "a concentration cannot be; try a smaller dt. If it may be negative, list it in signed = { ... } of tunica.model");
+                 "a concentration cannot be; try a smaller dt. If it may be negative, list it in signed = { ... } of "
+                 "tunica.model");
     }
   }
 }
@@ -128,19 +132,21 @@ void Integrator::check_oscillation(double time) {
     if (product < -0.9 * std::sqrt(last * now) && now > last && largest > 1e-6 * std::fabs(y[s.offset + where]))
       alternations_ += 1;
     if (phase == watch_length - 1 && alternations_ >= static_cast<int>(watch_length) - 1)
-      refuse("oscillation", k, where, next[s.offset + where], time, "the change turns round at every step and grows: dt is too long for this method");
+      refuse("oscillation", k, where, next[s.offset + where], time,
+             "the change turns round at every step and grows: dt is too long for this method");
   }
   for (size_t i = 0; i < size; ++i) before[i] = next[i] - y[i];
 }
 
-void Integrator::refuse(const char* kind, size_t column, Index element, double value, double time, const std::string& advice) {
+void Integrator::refuse(const char* kind, size_t column, Index element, double value, double time,
+                        const std::string& advice) {
   const System::StateColumn& s = system_->state()[column];
   const Id id = system_->tissue().id(s.kind, element);
   const std::string what = std::string(kind) == "oscillation" ? fmt::format("{} swings (now {:.6g})", s.name, value)
-                                                               : fmt::format("{} became {:.6g}", s.name, value);
+                                                              : fmt::format("{} became {:.6g}", s.name, value);
   throw StepFailed({kind, time, s.name, s.kind, id, value,
-                    fmt::format("{} in {} {} at time {:.9g} (method {}, dt {:.6g}): {}", what, name_of(s.kind), id, time,
-                                stepper_->name(), dt_, advice)});
+                    fmt::format("{} in {} {} at time {:.9g} (method {}, dt {:.6g}): {}", what, name_of(s.kind), id,
+                                time, stepper_->name(), dt_, advice)});
 }
 
 void Integrator::save(ByteWriter& out) const {

@@ -53,7 +53,8 @@ std::vector<std::string> stepper_names() { return {"euler", "heun"}; }
 std::unique_ptr<Stepper> make_stepper(const std::string& name) {
   if (name == "euler") return std::make_unique<Euler>();
   if (name == "heun") return std::make_unique<Heun>();
-  fail("unknown method '{}'{}; there are: {}", name, did_you_mean(name, stepper_names()), fmt::join(stepper_names(), ", "));
+  fail("unknown method '{}'{}; there are: {}", name, did_you_mean(name, stepper_names()),
+       fmt::join(stepper_names(), ", "));
 }
 
 }  // namespace tunica

@@ -9,8 +9,8 @@
 
 namespace tunica {
 
-/// A method of integration: one step from a state to the next. Keeps no history, so a run can be stopped, saved and resumed
-/// between any two steps.
+/// A method of integration: one step from a state to the next. Keeps no history, so a run can be stopped, saved and
+/// resumed between any two steps.
 class Stepper {
  public:
   virtual ~Stepper() = default;
@@ -20,7 +20,8 @@ class Stepper {
   virtual const std::vector<uint8_t>& step(System& system, double t, const double* y, double h, double* y_new) = 0;
 };
 
-/// Methods by name: "euler" (thesis 9.2), "heun" (explicit trapezoid, order 2). Errors: unknown name (names the nearest).
+/// Methods by name: "euler" (thesis 9.2), "heun" (explicit trapezoid, order 2). Errors: unknown name (names the
+/// nearest).
 std::unique_ptr<Stepper> make_stepper(const std::string& name);
 std::vector<std::string> stepper_names();
 

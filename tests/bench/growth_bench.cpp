@@ -35,8 +35,10 @@ int run() {
   t.add_column(Kind::cell, {.name = "auxin", .initial = 1});
   const UniformGrowth growth(1.0);
   const Threshold threshold{.area = 1, .variation = 0.3};
-  fmt::print("Growth from one cell by Errera's rule, steps of 1 % in length. us of thread CPU per division while the tissue doubles,\n"
-             "growing and dividing apart; split amounts must add up to 1.\n\n");
+  fmt::print(
+      "Growth from one cell by Errera's rule, steps of 1 % in length. us of thread CPU per division while the tissue "
+      "doubles,\n"
+      "growing and dividing apart; split amounts must add up to 1.\n\n");
   fmt::print("{:>8} {:>10} {:>12} {:>10} {:>14}\n", "cells", "us/division", "us growing", "ratio", "amount error");
   double dividing = 0, growing = 0, first = 0, last = 0;
   int64_t divisions = 0, goal = 500;
@@ -54,8 +56,9 @@ int run() {
     for (Index c = 0; c < t.cells(); ++c) sum += amount.values[c];
     last = (dividing + growing) / static_cast<double>(divisions) * 1e6;
     if (goal == 1000) first = last;
-    fmt::print("{:>8} {:>10.2f} {:>12.2f} {:>10} {:>14.1e}\n", t.cells(), dividing / static_cast<double>(divisions) * 1e6,
-               growing / static_cast<double>(divisions) * 1e6, first > 0 ? fmt::format("{:.2f}", last / first) : "", std::fabs(sum - 1));
+    fmt::print("{:>8} {:>10.2f} {:>12.2f} {:>10} {:>14.1e}\n", t.cells(),
+               dividing / static_cast<double>(divisions) * 1e6, growing / static_cast<double>(divisions) * 1e6,
+               first > 0 ? fmt::format("{:.2f}", last / first) : "", std::fabs(sum - 1));
     dividing = growing = 0;
     divisions = 0;
     goal *= 2;
@@ -66,7 +69,8 @@ int run() {
              (resident_mib() - empty) * 1048576 / cells, t.cells(), t.walls() / cells, t.junctions() / cells);
   validate(t);
   const CellStatistics s = cell_statistics(t);
-  fmt::print("every invariant holds; mean sides {:.3f}, junctions where four walls meet {}\n", s.mean_sides, s.four_way);
+  fmt::print("every invariant holds; mean sides {:.3f}, junctions where four walls meet {}\n", s.mean_sides,
+             s.four_way);
   return 0;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Traced rules against C++ loops written by hand for one model each: time as a ratio within one run, and the error beside it.
+// Traced rules against C++ loops written by hand for one model each: time as a ratio within one run, and the error
+// beside it.
 #include <fmt/format.h>
 #include <time.h>
 
@@ -81,7 +82,8 @@ void step_transport(const Graph_& g, State& s, State& next) {
     for (int k = g.begin[i]; k < g.begin[i + 1]; ++k) {
       const int j = g.to[k];
       const double y = A[j];
-      flux += g.length[k] * (D * (y - x) + T * (share[j] * power[i] * y * y / (1 + kT * x * x) - share[i] * power[j] * x * x / (1 + kT * y * y)));
+      flux += g.length[k] * (D * (y - x) + T * (share[j] * power[i] * y * y / (1 + kT * x * x) -
+                                                share[i] * power[j] * x * x / (1 + kT * y * y)));
     }
     next[0][i] = x + dt * (rho / (1 + kI * x) - mu * x + flux / g.area[i]);
     next[1][i] = p[i] + dt * ((rP0 + rP * x) / (1 + kP * p[i]) - mP * p[i]);
@@ -122,7 +124,9 @@ void measure(const Model& model, const char* mesh, std::shared_ptr<Tissue> t, in
   System s(e, t, {.threads = threads});
   std::vector<double> values;
   for (const std::string& name : e->parameters)
-    values.push_back(std::find_if(model.parameters.begin(), model.parameters.end(), [&](const auto& p) { return p.first == name; })->second);
+    values.push_back(std::find_if(model.parameters.begin(), model.parameters.end(), [&](const auto& p) {
+                       return p.first == name;
+                     })->second);
   s.prepare(values);
   const Graph_ g(*t);
   State x, next;
@@ -146,8 +150,10 @@ void measure(const Model& model, const char* mesh, std::shared_ptr<Tissue> t, in
   double error = 0;
   for (int i = 0; i < 20; ++i) ours(), by_hand();
   for (const auto& c : s.state()) {
-    const size_t k = static_cast<size_t>(std::find(model.columns.begin(), model.columns.end(), c.name) - model.columns.begin());
-    for (Index i = 0; i < c.count; ++i) error = std::max(error, std::fabs(y.data()[c.offset + i] - x[k][i]) / std::fabs(x[k][i]));
+    const size_t k =
+        static_cast<size_t>(std::find(model.columns.begin(), model.columns.end(), c.name) - model.columns.begin());
+    for (Index i = 0; i < c.count; ++i)
+      error = std::max(error, std::fabs(y.data()[c.offset + i] - x[k][i]) / std::fabs(x[k][i]));
   }
   // Both in turn, so that a change of the machine's speed meets both; the least of many batches of about 8 ms.
   const int batch = std::max(1, 800000 / t->cells());
@@ -164,20 +170,43 @@ void measure(const Model& model, const char* mesh, std::shared_ptr<Tissue> t, in
     ratios.push_back(spent[0] / spent[1]);
   }
   std::sort(ratios.begin(), ratios.end());
-  fmt::print("{:22} {:>10} {:>8} {:>9.2f} {:>9.2f} {:>8.2f} {:>8.2f}   {:>6} {:>10.1e}\n", model.name, mesh, t->cells(), best[0], best[1],
-             best[0] / best[1], ratios[ratios.size() / 2], model.bound, error);
+  fmt::print("{:22} {:>10} {:>8} {:>9.2f} {:>9.2f} {:>8.2f} {:>8.2f}   {:>6} {:>10.1e}\n", model.name, mesh, t->cells(),
+             best[0], best[1], best[0] / best[1], ratios[ratios.size() / 2], model.bound, error);
 }
 
 int run() {
-  const Model ai{"activator-inhibitor", activator_inhibitor,
-                 {{"ra", .02}, {"sa", .01}, {"ma", .012}, {"Da", .01}, {"rh", .02}, {"sh", .001}, {"mh", .015}, {"Dh", .3}}, {"a", "h"}, step_activator_inhibitor, 1.0};
-  const Model transport{"auxin transport", auxin_transport,
-                        {{"b", 3}, {"D", 4}, {"T", 22.5}, {"kT", 1}, {"rho", 6}, {"kI", 1}, {"mu", .5}, {"rP0", .6}, {"rP", .5}, {"kP", 1}, {"mP", 1}},
-                        {"auxin", "pin"}, step_transport, 0.65};
+  const Model ai{
+      "activator-inhibitor",
+      activator_inhibitor,
+      {{"ra", .02}, {"sa", .01}, {"ma", .012}, {"Da", .01}, {"rh", .02}, {"sh", .001}, {"mh", .015}, {"Dh", .3}},
+      {"a", "h"},
+      step_activator_inhibitor,
+      1.0};
+  const Model transport{"auxin transport",
+                        auxin_transport,
+                        {{"b", 3},
+                         {"D", 4},
+                         {"T", 22.5},
+                         {"kT", 1},
+                         {"rho", 6},
+                         {"kI", 1},
+                         {"mu", .5},
+                         {"rP0", .6},
+                         {"rP", .5},
+                         {"kP", 1},
+                         {"mP", 1}},
+                        {"auxin", "pin"},
+                        step_transport,
+                        0.65};
   const Model up{"upwind (not separable)", upwind, {{"T", 2}, {"rho", .5}, {"mu", .1}}, {"u"}, step_upwind, 1.0};
-  fmt::print("Traced rules against C++ loops by hand (-O3). ns of thread CPU per cell and Euler step: least of 40 batches in turn; ratio of these,\n"
-             "median of the ratios batch by batch, the bound set for it, and the largest relative error after 20 steps. {}\n\n", kernels().name);
-  fmt::print("{:22} {:>10} {:>8} {:>9} {:>9} {:>8} {:>8}   {:>6} {:>10}\n", "model", "tissue", "cells", "rule", "by hand", "ratio", "median", "bound", "error");
+  fmt::print(
+      "Traced rules against C++ loops by hand (-O3). ns of thread CPU per cell and Euler step: least of 40 batches in "
+      "turn; ratio of these,\n"
+      "median of the ratios batch by batch, the bound set for it, and the largest relative error after 20 steps. "
+      "{}\n\n",
+      kernels().name);
+  fmt::print("{:22} {:>10} {:>8} {:>9} {:>9} {:>8} {:>8}   {:>6} {:>10}\n", "model", "tissue", "cells", "rule",
+             "by hand", "ratio", "median", "bound", "error");
   measure(ai, "grid", std::make_shared<Tissue>(grid(50, 50)), 1);
   measure(ai, "grid", std::make_shared<Tissue>(grid(500, 500)), 1);
   for (const int64_t cells : {2000, 50000}) {

@@ -50,18 +50,22 @@ inline void auxin_transport(Equations& e) {
     return w.div(w.mul(w.mul(seen(from_own, share), seen(!from_own, power)), w.mul(from, from)),
                  w.add(w.k(1), w.mul(w.P("kT"), w.mul(to, to))));
   };
-  const NodeId f = w.mul(l, w.add(w.mul(w.P("D"), w.sub(w.own(A), w.across(A))), w.mul(w.P("T"), w.sub(carried(true), carried(false)))));
+  const NodeId f = w.mul(
+      l, w.add(w.mul(w.P("D"), w.sub(w.own(A), w.across(A))), w.mul(w.P("T"), w.sub(carried(true), carried(false)))));
   w.rate("auxin", w.div(w.neg(w.flux(f)), area));
   w.rate("auxin", w.sub(w.div(w.P("rho"), w.add(w.k(1), w.mul(w.P("kI"), A))), w.mul(w.P("mu"), A)));
-  w.rate("pin", w.sub(w.div(w.add(w.P("rP0"), w.mul(w.P("rP"), A)), w.add(w.k(1), w.mul(w.P("kP"), p))), w.mul(w.P("mP"), p)));
+  w.rate("pin",
+         w.sub(w.div(w.add(w.P("rP0"), w.mul(w.P("rP"), A)), w.add(w.k(1), w.mul(w.P("kP"), p))), w.mul(w.P("mP"), p)));
 }
 
-/// Transport that only runs towards the richer cell, and does not separate: exchange l T (a max(b - a, 0) - b max(a - b, 0)).
+/// Transport that only runs towards the richer cell, and does not separate: exchange l T (a max(b - a, 0) - b max(a -
+/// b, 0)).
 inline void upwind(Equations& e) {
   Writer w{e};
   const NodeId x = w.own(w.cell("u")), y = w.across(w.cell("u"));
   const auto up = [&](NodeId from, NodeId to) { return w.mul(from, w.max(w.sub(to, from), w.k(0))); };
-  w.rate("u", w.div(w.neg(w.flux(w.mul(w.wall("length"), w.mul(w.P("T"), w.sub(up(x, y), up(y, x)))))), w.cell("area")));
+  w.rate("u",
+         w.div(w.neg(w.flux(w.mul(w.wall("length"), w.mul(w.P("T"), w.sub(up(x, y), up(y, x)))))), w.cell("area")));
   w.rate("u", w.sub(w.P("rho"), w.mul(w.P("mu"), w.cell("u"))));
 }
 

@@ -102,7 +102,8 @@ struct RandomGraph {
 
   NodeId scalar() { return pick(2) ? w.k(0.2 + u()) : w.P(pick(2) ? "p" : "q"); }
   NodeId cell(int depth) {
-    if (depth <= 0 || pick(5) == 0) return pick(4) == 0 ? scalar() : pick(6) == 0 ? w.cell("area") : w.cell(pick(2) ? "u" : "v");
+    if (depth <= 0 || pick(5) == 0)
+      return pick(4) == 0 ? scalar() : pick(6) == 0 ? w.cell("area") : w.cell(pick(2) ? "u" : "v");
     if (pick(4) == 0) {
       static constexpr Op sums[] = {Op::sum, Op::sum, Op::sum, Op::minimum, Op::maximum};
       return w.e.graph.reduce(sums[pick(5)], side(depth - 1));
@@ -112,11 +113,16 @@ struct RandomGraph {
   NodeId side(int depth) {
     if (depth <= 0 || pick(6) == 0) {
       switch (pick(5)) {
-        case 0: return w.wall("length");
-        case 1: return w.side("s");
-        case 2: return w.e.graph.mirrored(w.side("s"));
-        case 3: return w.own(cell(depth - 2));
-        default: return w.across(cell(depth - 2));
+        case 0:
+          return w.wall("length");
+        case 1:
+          return w.side("s");
+        case 2:
+          return w.e.graph.mirrored(w.side("s"));
+        case 3:
+          return w.own(cell(depth - 2));
+        default:
+          return w.across(cell(depth - 2));
       }
     }
     if (pick(5) == 0) {
@@ -128,15 +134,29 @@ struct RandomGraph {
   NodeId combine(NodeId a, NodeId b) {
     Graph& g = w.e.graph;
     switch (pick(14)) {
-      case 0: case 1: case 2: return g.binary(Op::add, a, b);
-      case 3: case 4: return g.binary(Op::sub, a, b);
-      case 5: case 6: case 7: return g.binary(Op::mul, a, b);
-      case 8: return g.binary(Op::div, a, g.binary(Op::add, w.k(1), g.unary(Op::abs, b)));
-      case 9: return g.unary(pick(2) ? Op::tanh : Op::sin, a);
-      case 10: return g.unary(Op::exp, g.unary(Op::neg, g.unary(Op::abs, a)));
-      case 11: return g.binary(pick(2) ? Op::min : Op::max, a, b);
-      case 12: return g.select(g.binary(Op::less, a, b), a, b);
-      default: return g.binary(Op::pow, g.unary(Op::abs, a), w.k(1.5));
+      case 0:
+      case 1:
+      case 2:
+        return g.binary(Op::add, a, b);
+      case 3:
+      case 4:
+        return g.binary(Op::sub, a, b);
+      case 5:
+      case 6:
+      case 7:
+        return g.binary(Op::mul, a, b);
+      case 8:
+        return g.binary(Op::div, a, g.binary(Op::add, w.k(1), g.unary(Op::abs, b)));
+      case 9:
+        return g.unary(pick(2) ? Op::tanh : Op::sin, a);
+      case 10:
+        return g.unary(Op::exp, g.unary(Op::neg, g.unary(Op::abs, a)));
+      case 11:
+        return g.binary(pick(2) ? Op::min : Op::max, a, b);
+      case 12:
+        return g.select(g.binary(Op::less, a, b), a, b);
+      default:
+        return g.binary(Op::pow, g.unary(Op::abs, a), w.k(1.5));
     }
   }
 };
@@ -160,13 +180,14 @@ TEST(System, RandomGraphsMatchDirectEvaluation) {
     s.prepare({0.7, 1.3});
     with_edges += s.plan().uses_edges;
     // Decisions on rounded values can fall either way; such graphs are rare and show as large errors in single cells.
-    EXPECT_LT(error_against_reference(s, {0.7, 1.3}), 1e-9) << "seed " << seed << ": " << e->graph.text(e->rates[0].value);
+    EXPECT_LT(error_against_reference(s, {0.7, 1.3}), 1e-9)
+        << "seed " << seed << ": " << e->graph.text(e->rates[0].value);
   }
   EXPECT_GT(with_edges, 50);
 }
 
-std::vector<double> after_steps(std::shared_ptr<Tissue> t, void (*write)(Equations&), const std::vector<double>& parameters,
-                                SystemOptions options, int steps) {
+std::vector<double> after_steps(std::shared_ptr<Tissue> t, void (*write)(Equations&),
+                                const std::vector<double>& parameters, SystemOptions options, int steps) {
   auto e = std::make_shared<Equations>();
   write(*e);
   System s(e, t, options);
@@ -218,7 +239,8 @@ TEST(System, EulerStepIsStatePlusRates) {
   s.rates(0, y.data(), rates.data());
   s.euler(0, y.data(), 0.01, next.data());
   for (const auto& c : s.state())
-    for (Index i = 0; i < c.count; ++i) EXPECT_EQ(next.data()[c.offset + i], y.data()[c.offset + i] + 0.01 * rates.data()[c.offset + i]);
+    for (Index i = 0; i < c.count; ++i)
+      EXPECT_EQ(next.data()[c.offset + i], y.data()[c.offset + i] + 0.01 * rates.data()[c.offset + i]);
 }
 
 TEST(System, NonFiniteAndNegativeResultsAreFlagged) {
@@ -245,7 +267,8 @@ TEST(Kernels, ExponentialIsAccurateAndKeepsExtremes) {
     double worst = 0;
     for (int round = 0; round < 400; ++round) {
       for (int i = 0; i < 256; ++i) x[i] = -700 + 1400 * uniform({1, 2, static_cast<uint64_t>(round * 256 + i)});
-      if (round % 2) for (double& v : x) v /= 300;
+      if (round % 2)
+        for (double& v : x) v /= 300;
       k.elementwise[static_cast<int>(Code::exp)][0]({y, x, x, x, 0, 0, 0, 256});
       for (int i = 0; i < 256; ++i) {
         const long double exact = std::exp(static_cast<long double>(x[i]));
