@@ -12,15 +12,20 @@ namespace tunica {
 
 inline constexpr int block_size = 256;  ///< cells (or half-edges, walls) handled at a time
 
+/// `cells` cells of a block with the same number of neighbours.
 struct Run {
-  uint16_t neighbours, cells;  ///< `cells` cells of a block with this many neighbours each
+  uint16_t neighbours, cells;
+  /// The cells follow each other, and so do their first neighbours, their second neighbours, ...: a stretch of a grid.
+  /// Such a run is at least min_consecutive cells long.
+  bool consecutive;
 };
+inline constexpr int min_consecutive = 8;
 
 /// The arrays of a Layout (layout.h).
 struct LayoutView {
   const uint8_t* position;
   const Run* runs;
-  const int32_t *run_begin, *edge_begin, *across, *wall_code;
+  const int32_t *run_begin, *edge_begin, *across, *signed_wall;
 };
 
 /// Blocks of values an elementwise kernel works on: pointers, or the numbers where an operand is scalar.

@@ -12,6 +12,7 @@ namespace {
 
 constexpr int lanes = TUNICA_VECTOR_BYTES / 8;
 typedef double V __attribute__((vector_size(TUNICA_VECTOR_BYTES), may_alias));
+typedef double Unaligned __attribute__((vector_size(TUNICA_VECTOR_BYTES), may_alias, aligned(8)));
 typedef long long L __attribute__((vector_size(TUNICA_VECTOR_BYTES), may_alias));
 
 inline V all(double x) { return V{} + x; }  // only for x that is not a signed zero
@@ -151,6 +152,40 @@ inline void gather_run(const GatherArguments& g, int neighbours, int cells, cons
   }
 }
 
+/// One column over a stretch of a grid: the neighbours of consecutive cells are consecutive, so whole vectors add up.
+template <int unrolled>
+inline void gather_consecutive(const double* column, const int32_t* across, int neighbours, int cells, const double* own,
+                               double* out) {
+  const int n = unrolled ? unrolled : neighbours;
+  int ahead = across[0];
+  for (int q = 1; q < n; ++q) ahead = across[q] > ahead ? across[q] : ahead;
+  ahead += block_size;
+  for (int i = 0; i < cells; i += lanes) {
+    if (i + lanes > cells) i = cells - lanes;  // the last vector overlaps the one before it
+    __builtin_prefetch(column + ahead + i);
+    const V less = own ? (V)*(const Unaligned*)(own + i) : V{};
+    V sum{};
+    for (int q = 0; q < n; ++q) {
+      V term = (V)*(const Unaligned*)(column + across[q] + i);
+      if (own) term = term - less;
+      sum = q == 0 ? term : sum + term;
+    }
+    *(Unaligned*)(out + i) = (Unaligned)sum;
+  }
+}
+
+void gather_consecutive(const GatherArguments& g, int column, int edge, int neighbours, int cells, int position) {
+  const double *values = g.rows[column], *own = g.difference >> column & 1 ? values + (long)g.block * block_size + position : nullptr;
+  const int32_t* across = g.layout->across + edge;
+  double* out = g.out[column] + position;
+  switch (neighbours) {
+    case 2: return gather_consecutive<2>(values, across, 2, cells, own, out);
+    case 4: return gather_consecutive<4>(values, across, 4, cells, own, out);
+    case 6: return gather_consecutive<6>(values, across, 6, cells, own, out);
+    default: return gather_consecutive<0>(values, across, neighbours, cells, own, out);
+  }
+}
+
 template <int width, bool weighted, bool subtract>
 void gather_block(const GatherArguments& g) {
   using R = typename RowType<width>::type;
@@ -166,7 +201,9 @@ void gather_block(const GatherArguments& g) {
   int edge = l.edge_begin[g.block];
   for (int r = l.run_begin[g.block]; r < l.run_begin[g.block + 1]; ++r) {
     const int n = l.runs[r].neighbours, cells = l.runs[r].cells;
-    switch (n) {
+    if (width == 1 && !weighted && l.runs[r].consecutive)
+      gather_consecutive(g, 0, edge, n, cells, *position);
+    else switch (n) {
       case 2: gather_run<width, weighted, subtract, 2>(g, n, cells, position, edge, keep); break;
       case 3: gather_run<width, weighted, subtract, 3>(g, n, cells, position, edge, keep); break;
       case 4: gather_run<width, weighted, subtract, 4>(g, n, cells, position, edge, keep); break;
@@ -221,7 +258,10 @@ void gather_two_block(const GatherArguments& g) {
   int edge = l.edge_begin[g.block];
   for (int r = l.run_begin[g.block]; r < l.run_begin[g.block + 1]; ++r) {
     const int n = l.runs[r].neighbours, cells = l.runs[r].cells;
-    switch (n) {
+    if (!weighted && l.runs[r].consecutive) {
+      gather_consecutive(g, 0, edge, n, cells, *position);
+      gather_consecutive(g, 1, edge, n, cells, *position);
+    } else switch (n) {
       case 2: gather_two_run<weighted, 2>(g, n, cells, position, edge); break;
       case 4: gather_two_run<weighted, 4>(g, n, cells, position, edge); break;
       case 5: gather_two_run<weighted, 5>(g, n, cells, position, edge); break;
@@ -270,41 +310,32 @@ void reduce_edges(const LayoutView& l, int block, const double* values, double* 
   }
 }
 
-/// The wall's value, negated on its second side.
-inline double signed_value(const double* values, int32_t code) {
-  long long bits;
-  __builtin_memcpy(&bits, values + (code >> 1), 8);
-  bits ^= (long long)((unsigned long long)code << 63);
-  double value;
-  __builtin_memcpy(&value, &bits, 8);
-  return value;
-}
-
+/// `index`: of a half-edge's wall, among the values or, on the wall's second side, among their negatives that follow them.
 template <int unrolled>
-inline void wall_sum_run(const double* values, const int32_t* code, int neighbours, int cells, const uint8_t* position, double* out) {
+inline void wall_sum_run(const double* values, const int32_t* index, int neighbours, int cells, const uint8_t* position, double* out) {
   const int n = unrolled ? unrolled : neighbours;
-  for (int i = 0; i < cells; ++i, code += n) {
-    double total = n ? signed_value(values, code[0]) : 0.0;
-    for (int q = 1; q < n; ++q) total = total + signed_value(values, code[q]);
+  for (int i = 0; i < cells; ++i, index += n) {
+    double total = n ? values[index[0]] : 0.0;
+    for (int q = 1; q < n; ++q) total = total + values[index[q]];
     out[position[i]] = total;
   }
 }
 
 void wall_sum(const LayoutView& l, int block, const double* values, double* out) {
   const uint8_t* position = l.position + (long)block * block_size;
-  const int32_t* code = l.wall_code + l.edge_begin[block];
+  const int32_t* index = l.signed_wall + l.edge_begin[block];
   for (int r = l.run_begin[block]; r < l.run_begin[block + 1]; ++r) {
     const int n = l.runs[r].neighbours, cells = l.runs[r].cells;
     switch (n) {
-      case 4: wall_sum_run<4>(values, code, n, cells, position, out); break;
-      case 5: wall_sum_run<5>(values, code, n, cells, position, out); break;
-      case 6: wall_sum_run<6>(values, code, n, cells, position, out); break;
-      case 7: wall_sum_run<7>(values, code, n, cells, position, out); break;
-      case 8: wall_sum_run<8>(values, code, n, cells, position, out); break;
-      default: wall_sum_run<0>(values, code, n, cells, position, out); break;
+      case 4: wall_sum_run<4>(values, index, n, cells, position, out); break;
+      case 5: wall_sum_run<5>(values, index, n, cells, position, out); break;
+      case 6: wall_sum_run<6>(values, index, n, cells, position, out); break;
+      case 7: wall_sum_run<7>(values, index, n, cells, position, out); break;
+      case 8: wall_sum_run<8>(values, index, n, cells, position, out); break;
+      default: wall_sum_run<0>(values, index, n, cells, position, out); break;
     }
     position += cells;
-    code += n * cells;
+    index += n * cells;
   }
 }
 
@@ -320,6 +351,7 @@ inline uint8_t advance_by(const AdvanceArguments& g, Rates rates, Rate rate_of) 
   int i = 0;
 #pragma GCC unroll 4
   for (; i + lanes <= g.count; i += lanes) {
+    __builtin_prefetch(g.y_new + i + block_size, 1);
     const V y = *(const V*)(g.y + i) + h * rates(i);
     *(V*)(g.y_new + i) = y;
     bad |= (y - y) != (y - y);

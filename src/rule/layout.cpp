@@ -2,6 +2,7 @@
 #include "rule/layout.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tunica {
 
@@ -35,7 +36,6 @@ Layout::Layout(const Tissue& tissue)
     }
     for (size_t n = 0; n < by_count.size(); ++n) {
       if (by_count[n].empty()) continue;
-      runs.push_back({static_cast<uint16_t>(n), static_cast<uint16_t>(by_count[n].size())});
       for (const uint8_t place : by_count[n]) {
         position.push_back(place);
         const Index cell = first + place, start = tissue.first_side(cell);
@@ -52,6 +52,7 @@ Layout::Layout(const Tissue& tissue)
             s = tissue.next(s);
           } while (s != start);
       }
+      add_runs(static_cast<int>(n), static_cast<int>(by_count[n].size()));
     }
   }
   run_begin.push_back(static_cast<int32_t>(runs.size()));
@@ -65,13 +66,39 @@ Layout::Layout(const Tissue& tissue)
     primary.push_back(e);
   }
   walls = static_cast<Index>(primary.size());
-  wall_code.resize(edges);
+  wall_stride = padded_to_blocks(walls);
+  signed_wall.resize(edges);
   for (Index e = 0; e < edges; ++e)
-    wall_code[e] = 2 * place[wall[e]] + (tissue.wall_side(wall[e], 0) == side[e] ? 0 : 1);
+    signed_wall[e] = place[wall[e]] + (tissue.wall_side(wall[e], 0) == side[e] ? 0 : wall_stride);
+}
+
+/// The last `cells` cells laid out, as runs: stretches of a grid on their own, where long enough.
+void Layout::add_runs(int neighbours, int cells) {
+  const uint8_t* place = position.data() + position.size() - cells;
+  const int32_t* to = across.data() + across.size() - static_cast<size_t>(cells) * neighbours;
+  const auto follows = [&](int i) {
+    bool one_on = place[i] == place[i - 1] + 1;
+    for (int q = 0; q < neighbours; ++q) one_on &= to[i * neighbours + q] == to[(i - 1) * neighbours + q] + 1;
+    return one_on;
+  };
+  const auto add = [&](int count, bool consecutive) {
+    if (count > 0) runs.push_back({static_cast<uint16_t>(neighbours), static_cast<uint16_t>(count), consecutive});
+  };
+  int waiting = 0;
+  for (int i = 0, end; i < cells; i = end) {
+    for (end = i + 1; end < cells && follows(end);) ++end;
+    if (neighbours == 0 || end - i < min_consecutive) {
+      waiting += end - i;
+      continue;
+    }
+    add(std::exchange(waiting, 0), false);
+    add(end - i, true);
+  }
+  add(waiting, false);
 }
 
 LayoutView Layout::view() const {
-  return {position.data(), runs.data(), run_begin.data(), edge_begin.data(), across.data(), wall_code.data()};
+  return {position.data(), runs.data(), run_begin.data(), edge_begin.data(), across.data(), signed_wall.data()};
 }
 
 }  // namespace tunica

@@ -127,7 +127,7 @@ class Planner {
       if (n.op == Op::gather && n.b != no_node) edge_root(n.b);
       if (n.op == Op::edge_sum || n.op == Op::edge_minimum || n.op == Op::edge_maximum) edge_root(n.a);
       if (n.op == Op::wall_sum) {
-        if (!wall_temp_.count(n.a)) wall_temp_[n.a] = plan_.wall_temps++;
+        if (wall_temp_.try_emplace(n.a, plan_.wall_temps).second) plan_.wall_temps += 2;  // the negatives follow
         plan_.uses_wall_form = true;
       }
     }
@@ -311,8 +311,9 @@ class Planner {
     for (const auto& [id, temp] : temps) {
       if (level(id) != now || (over == Over::edges && lowering_.is_fixed(id))) continue;
       const Operand a = side_value(e, id);
-      e.pass.code.push_back(
-          {.code = Code::copy, .dst = {over == Over::edges ? Place::edge_temp : Place::wall_temp, temp}, .a = a});
+      const Place place = over == Over::edges ? Place::edge_temp : Place::wall_temp;
+      e.pass.code.push_back({.code = Code::copy, .dst = {place, temp}, .a = a});
+      if (over == Over::walls) e.pass.code.push_back({.code = Code::neg, .dst = {place, temp + 1}, .a = a});
     }
     const Kind kind = over == Over::edges ? Kind::side : Kind::wall;
     for (const Output& o : outputs_) {
@@ -342,23 +343,45 @@ class Planner {
     plan_.passes = std::move(passes);
   }
 
+  /// What an instruction computes only to be copied to a temp goes there at once; later readers find it there.
+  static void drop_copies(std::vector<Instruction>& code) {
+    for (size_t k = 1; k < code.size(); ++k) {
+      const Instruction copy = code[k];
+      const Instruction& before = code[k - 1];
+      const bool to_temp = copy.dst.place == Place::cell_temp || copy.dst.place == Place::edge_temp ||
+                           copy.dst.place == Place::wall_temp;
+      if (copy.code != Code::copy || !to_temp || copy.a.place != Place::reg) continue;
+      if (before.code >= Code::elementwise_count || before.dst.place != Place::reg || before.dst.index != copy.a.index)
+        continue;
+      code[k - 1].dst = copy.dst;
+      code.erase(code.begin() + static_cast<long>(k--));
+      for (size_t later = k + 1; later < code.size(); ++later)
+        each_operand(code[later], [&](Operand& o) {
+          if (o.place == Place::reg && o.index == copy.a.index) o = copy.dst;
+        });
+    }
+  }
+
+  template <class Visit>
+  static void each_operand(Instruction& i, Visit visit) {
+    for (Operand* o : {&i.a, &i.b, &i.c, &i.dst}) visit(*o);
+    for (Operand& o : i.values) visit(o);
+  }
+
   // === Registers: reuse a buffer after its last reader
   void finish(Emitter& e) {
     if (e.pass.code.empty()) return;
+    drop_copies(e.pass.code);
     std::map<int, size_t> last;
-    const auto each = [](Instruction& i, auto&& visit) {
-      for (Operand* o : {&i.a, &i.b, &i.c, &i.dst}) visit(*o);
-      for (Operand& o : i.values) visit(o);
-    };
     for (size_t k = 0; k < e.pass.code.size(); ++k)
-      each(e.pass.code[k], [&](Operand& o) {
+      each_operand(e.pass.code[k], [&](Operand& o) {
         if (o.place == Place::reg) last[o.index] = k;
       });
     std::set<int> free;
     std::map<int, int> physical;
     for (size_t k = 0; k < e.pass.code.size(); ++k) {
       std::vector<int> ended;
-      each(e.pass.code[k], [&](Operand& o) {
+      each_operand(e.pass.code[k], [&](Operand& o) {
         if (o.place != Place::reg) return;
         const int virtual_register = o.index;
         auto [at, fresh] = physical.try_emplace(virtual_register, -1);

@@ -77,19 +77,15 @@ bool System::has_direct() const {
                      [](const Equations::Derivation& d) { return d.materialise; });
 }
 
-size_t System::padded(Kind kind) const {
-  const auto count = static_cast<size_t>(tissue_->count(kind));
-  return (count + block_size - 1) / block_size * block_size + block_size;
-}
+size_t System::padded(Kind kind) const { return padded_to_blocks(tissue_->count(kind)); }
 
 void System::allocate(Compiled& c) {
   const size_t cells = padded(Kind::cell);
   c.rows.resize(c.plan.row_width.size());
   for (size_t r = 0; r < c.rows.size(); ++r) c.rows[r].resize(cells * c.plan.row_width[r]);
   c.cell_temps.resize(cells * c.plan.cell_temps);
-  const auto rounded = [](Index n) { return static_cast<size_t>((n + block_size - 1) / block_size + 1) * block_size; };
-  c.edge_temps.resize(rounded(layout_->edges) * c.plan.edge_temps);
-  c.wall_temps.resize(rounded(layout_->walls) * c.plan.wall_temps);
+  c.edge_temps.resize(static_cast<size_t>(padded_to_blocks(layout_->edges)) * c.plan.edge_temps);
+  c.wall_temps.resize(static_cast<size_t>(layout_->wall_stride) * c.plan.wall_temps);
   c.scalars.assign(c.plan.scalars.size(), 0.0);
 }
 
