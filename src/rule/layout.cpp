@@ -72,21 +72,21 @@ Layout::Layout(const Tissue& tissue)
     signed_wall[e] = place[wall[e]] + (tissue.wall_side(wall[e], 0) == side[e] ? 0 : wall_stride);
 }
 
-/// The last `cells` cells laid out, as runs: stretches of a grid on their own, where long enough.
-void Layout::add_runs(int neighbours, int cells) {
-  const uint8_t* place = position.data() + position.size() - cells;
-  const int32_t* to = across.data() + across.size() - static_cast<size_t>(cells) * neighbours;
+/// The last `count` cells laid out, as runs: stretches of a grid on their own, where long enough.
+void Layout::add_runs(int neighbours, int count) {
+  const uint8_t* place = position.data() + position.size() - count;
+  const int32_t* to = across.data() + across.size() - static_cast<size_t>(count) * neighbours;
   const auto follows = [&](int i) {
     bool one_on = place[i] == place[i - 1] + 1;
     for (int q = 0; q < neighbours; ++q) one_on &= to[i * neighbours + q] == to[(i - 1) * neighbours + q] + 1;
     return one_on;
   };
-  const auto add = [&](int count, bool consecutive) {
-    if (count > 0) runs.push_back({static_cast<uint16_t>(neighbours), static_cast<uint16_t>(count), consecutive});
+  const auto add = [&](int length, bool consecutive) {
+    if (length > 0) runs.push_back({static_cast<uint16_t>(neighbours), static_cast<uint16_t>(length), consecutive});
   };
   int waiting = 0;
-  for (int i = 0, end; i < cells; i = end) {
-    for (end = i + 1; end < cells && follows(end);) ++end;
+  for (int i = 0, end; i < count; i = end) {
+    for (end = i + 1; end < count && follows(end);) ++end;
     if (neighbours == 0 || end - i < min_consecutive) {
       waiting += end - i;
       continue;

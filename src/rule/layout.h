@@ -35,7 +35,7 @@ struct Layout {
   AlignedBuffer neighbour_count;  ///< per cell, padded
 
  private:
-  void add_runs(int neighbours, int cells);
+  void add_runs(int neighbours, int count);
 };
 
 }  // namespace tunica

@@ -47,6 +47,8 @@ class Planner {
       emit_sides(l, Over::walls);
     }
     emit_fixed();
+    for (const Output& output : outputs_)
+      if (output.column < 0) plan_.values.push_back(kept_value(output.value));
     return std::move(plan_);
   }
 
@@ -104,6 +106,12 @@ class Planner {
     }
   }
 
+  Operand kept_value(NodeId id) const {
+    const Domain domain = graph_[id].domain;
+    if (domain == Domain::side) return {Place::edge_temp, edge_temp_.at(id)};
+    return computed(id) ? Operand{Place::cell_temp, kept_.at(id)} : leaf(id);
+  }
+
   bool computed(NodeId id) const {  // by a cell pass, as opposed to read from a column or a scalar
     const Node& n = graph_[id];
     return n.domain == Domain::cell && !is_leaf(n.op);
@@ -130,6 +138,10 @@ class Planner {
         if (wall_temp_.try_emplace(n.a, plan_.wall_temps).second) plan_.wall_temps += 2;  // the negatives follow
         plan_.uses_wall_form = true;
       }
+    }
+    for (const Output& output : outputs_) {
+      if (output.column >= 0) continue;
+      graph_[output.value].domain == Domain::side ? edge_root(output.value) : keep(output.value);
     }
   }
 
@@ -239,7 +251,7 @@ class Planner {
     for (const auto& [id, temp] : kept_)
       if (level(id) == now) cell_value(e, id, now);
     for (const Output& o : outputs_) {
-      if (equations_.columns[o.column].kind != Kind::cell || now != last_) continue;
+      if (o.column < 0 || equations_.columns[o.column].kind != Kind::cell || now != last_) continue;
       const Operand a = cell_value(e, o.value, now);
       if (o.is_rate)
         emit_rate(e, o, a);
@@ -317,7 +329,7 @@ class Planner {
     }
     const Kind kind = over == Over::edges ? Kind::side : Kind::wall;
     for (const Output& o : outputs_) {
-      if (equations_.columns[o.column].kind != kind || now != last_) continue;
+      if (o.column < 0 || equations_.columns[o.column].kind != kind || now != last_) continue;
       const Operand a = side_value(e, o.value);
       e.pass.code.push_back({.code = Code::scatter, .a = a, .column = o.column, .is_rate = o.is_rate});
     }

@@ -50,11 +50,12 @@ struct Plan {
   std::vector<Pass> passes;
   std::vector<int> row_width;   ///< 1, 2 or 4 values per cell
   std::vector<NodeId> scalars;  ///< evaluated first, in this order
+  std::vector<Operand> values;  ///< of the outputs without a column: scalar, column, cell_temp or edge_temp
   int cell_temps = 0, edge_temps = 0, wall_temps = 0;
   bool uses_wall_form = false, uses_edges = false;  ///< some sum did not separate
 };
 
-/// What a plan is to compute.
+/// What a plan is to compute: a rate, a column, or (column -1) a value to be kept where Plan::values says.
 struct Output {
   int column;
   NodeId value;

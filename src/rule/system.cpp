@@ -97,7 +97,7 @@ void System::run_fixed(Compiled& c) {
 
 void System::prepare(const std::vector<double>& parameters) {
   parameters_ = parameters;
-  std::vector<Compiled*> all{&main_};
+  std::vector<Compiled*> all{&main_, &values_};
   for (Stage& stage : stages_) all.push_back(&stage.compiled);
   if (topology_version_ != tissue_->topology_version()) {
     topology_version_ = tissue_->topology_version();
@@ -161,6 +161,43 @@ void System::rates(double t, const double* y, double* dydt) {
   std::fill_n(dydt, state_size_, 0.0);
   run(main_, t, y, dydt, 0, nullptr);
   add_direct_rates(t, dydt);
+}
+
+void System::add_values(const std::vector<NodeId>& nodes) {
+  std::vector<Output> outputs;
+  for (const NodeId id : nodes) outputs.push_back({-1, id, false});
+  values_ = compile(outputs);
+  topology_version_ = 0;  // its buffers are made with the rest
+}
+
+void System::compute_values(double t, const double* y) {
+  if (has_direct()) derive(t, y);
+  run(values_, t, y, nullptr, 0, nullptr);
+  values_of_ = y;
+}
+
+System::Values System::values(size_t k) const {
+  const Operand& o = values_.plan.values.at(k);
+  const auto part = [&](const AlignedBuffer& buffer, int parts) {
+    return buffer.data() + buffer.size() / parts * o.index;
+  };
+  switch (o.place) {
+    case Place::scalar:
+      return {Values::Per::all, values_.scalars.data() + o.index};
+    case Place::cell_temp:
+      return {Values::Per::cell, part(values_.cell_temps, values_.plan.cell_temps)};
+    case Place::edge_temp:
+      return {Values::Per::edge, part(values_.edge_temps, values_.plan.edge_temps)};
+    case Place::column: {
+      if (o.index < 0) return {Values::Per::cell, layout_->neighbour_count.data()};
+      const int state = state_of_column_[o.index];
+      if (state >= 0) return {Values::Per::cell, values_of_ + state_[state].offset};
+      const Equations::ColumnRef& ref = equations_->columns[o.index];
+      return {Values::Per::cell, tissue_->column(ref.kind, ref.name).values.data()};
+    }
+    default:
+      fail("internal: a value that was not kept");
+  }
 }
 
 const std::vector<uint8_t>& System::euler(double t, const double* y, double h, double* y_new) {

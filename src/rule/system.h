@@ -53,6 +53,20 @@ class System {
   /// Writes all derived columns of the tissue for state y.
   void derive(double t, const double* y);
 
+  /// Further values to be computed from a state (the entries of a Jacobian): nodes of the equations' graph. To be added
+  /// before prepare().
+  void add_values(const std::vector<NodeId>& nodes);
+  /// Computes them; they stay until the next prepare() or compute_values().
+  void compute_values(double t, const double* y);
+  /// The k-th of them: one per cell, one per half-edge in the layout's order, or one number for all.
+  struct Values {
+    enum class Per : uint8_t { all, cell, edge } per;
+    const double* data;
+  };
+  Values values(size_t k) const;
+  const Layout& layout() const { return *layout_; }
+
+  Equations& equations() { return *equations_; }
   const Equations& equations() const { return *equations_; }
   Tissue& tissue() { return *tissue_; }
   const Plan& plan() const { return main_.plan; }
@@ -93,8 +107,10 @@ class System {
   std::vector<std::vector<int32_t>> wall_indices_;  ///< own, across, wall, side, mirror per wall, when needed
   uint64_t topology_version_ = 0;
   std::vector<double> parameters_;
-  std::vector<Stage> stages_;  ///< derived columns, cut where a direct rule derives; the last without
-  Compiled main_;              ///< rates
+  std::vector<Stage> stages_;          ///< derived columns, cut where a direct rule derives; the last without
+  Compiled main_;                      ///< rates
+  Compiled values_;                    ///< what add_values() asked for
+  const double* values_of_ = nullptr;  ///< the state that values() speaks of
   std::vector<uint8_t> flags_;
   std::vector<AlignedBuffer> registers_;  ///< per thread
   AlignedBuffer side_rates_, direct_rates_;
