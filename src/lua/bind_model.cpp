@@ -50,7 +50,7 @@ int machine(lua_State* L) {
     auto m = std::make_unique<Machine>();
     SystemOptions options;
     options.cancel = &host(L).cancel;
-    auto stepper = make_stepper(check_string(L, 2, "a method"));
+    auto stepper = make_stepper(check_string(L, 2, "a method"), {});
     const double dt = check_number(L, 3, "dt");
     options.threads = static_cast<int>(check_integer(L, 4, "threads", 1, 256));
     m->system = std::make_shared<System>(r.equations, r.tissue, options);

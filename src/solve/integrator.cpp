@@ -4,163 +4,263 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solve/integrator_run.h"
+#include "solve/spectral_radius.h"
+
 namespace tunica {
 
 namespace {
 
-/// Steps between looks at the clock, and the pattern of looking for oscillation: four steps in a row out of 128.
-constexpr uint64_t clock_interval = 16, watch_interval = 128, watch_length = 6;
+/// Steps between looks at the clock.
+constexpr uint64_t clock_interval = 16;
 
 }  // namespace
 
-Integrator::Integrator(std::shared_ptr<System> system, std::unique_ptr<Stepper> stepper, double dt)
-    : system_(std::move(system)), stepper_(std::move(stepper)), dt_(dt) {
-  if (!(dt > 0) || !std::isfinite(dt)) fail("dt must be a positive time step, not {}", dt);
+Integrator::Integrator(std::shared_ptr<System> system, std::unique_ptr<Stepper> stepper, double dt, double tolerance)
+    : system_(std::move(system)), stepper_(std::move(stepper)), dt_(dt), tolerance_(tolerance) {
+  if (!(dt > 0) || !(std::isfinite(dt) || adaptive())) fail("dt must be a positive time step, not {}", dt);
+  if (!(tolerance > 0) || !std::isfinite(tolerance)) fail("the tolerance must be a positive number, not {}", tolerance);
 }
 
-void Integrator::load_state(const std::vector<double>& parameters) {
+double Integrator::slack() const {
+  if (!adaptive()) return 1e-9 * dt_;
+  return 1e-12 * std::max(std::fabs(time()), longest_);
+}
+
+Work Integrator::work() const {
+  Work work = stepper_->work();
+  work.evaluations += evaluations_;
+  work.rejected += rejections_;
+  return work;
+}
+
+/// A fingerprint of all that rates may depend on: structure, columns except derived ones.
+std::string Integrator::fingerprint() const {
+  const Tissue& tissue = system_->tissue();
+  const Equations& e = system_->equations();
+  ByteWriter out;
+  for (int k = 0; k < kinds; ++k) {
+    const Kind kind = static_cast<Kind>(k);
+    const Index count = tissue.count(kind);
+    out.put(count);
+    for (const auto& column : tissue.columns(kind)) {
+      const auto derives = [&](int slot) {
+        return e.columns[slot].kind == kind && e.columns[slot].name == column->name;
+      };
+      bool derived = false;
+      for (const Equations::Derivation& d : e.derivations)
+        for (const Target& t : d.traced) derived = derived || derives(t.column);
+      for (const DirectRule& rule : e.direct_derivations)
+        derived = derived || std::any_of(rule.columns.begin(), rule.columns.end(), derives);
+      if (derived) continue;
+      out.text(column->name);
+      out.text(hash({reinterpret_cast<const char*>(column->values.data()), sizeof(double) * count}));
+    }
+  }
+  if (tissue.cells() > 0) out.put(tissue.id(Kind::cell, tissue.cells() - 1));
+  out.array(parameters_.data(), parameters_.size());
+  return hash(out.bytes());
+}
+
+void Integrator::enter(const std::vector<double>& parameters) {
+  parameters_ = parameters;
   system_->prepare(parameters);
   const size_t size = system_->state_size();
-  for (AlignedBuffer* buffer : {&y_, &y_new_, &before_})
-    if (buffer->size() != size) buffer->resize(size);
-  system_->read_state(y_.data());
-  watch_negative_.assign(system_->state().size(), 0);
-  for (size_t k = 0; k < watch_negative_.size(); ++k) {
-    const System::StateColumn& s = system_->state()[k];
-    const double* first = y_.data() + s.offset;
-    for (Index i = 0; i < s.count; ++i)
-      if (!std::isfinite(first[i]))
-        refuse("not finite", k, i, first[i], time(), "it was so before the step; look at what set it");
-    const bool meant = std::find(signed_.begin(), signed_.end(), s.name) != signed_.end();
-    watch_negative_[k] = !meant && std::none_of(first, first + s.count, [](double v) { return v < 0; });
+  const bool known = !seen_.empty() && (!inside_ || y_.size() == size);
+  for (AlignedBuffer* buffer : {&y_, &y_new_, &y_before_})
+    if (buffer->size() != size && (buffer != &y_before_ || adaptive())) buffer->resize(size);
+  const bool unchanged = stepper_->remembers() && known && seen_ == fingerprint();
+  have_slopes_ = false;
+  if (!unchanged && inside_) {
+    origin_ = shown_;
+    index_ = 0;
+    inside_ = false;
   }
-  alternations_ = 0;
+  if (!inside_) system_->read_state(y_.data());
+  have_last_ = unchanged && inside_;
+  if (const auto symptom = watch_.begin(*system_, y_.data()))
+    refuse(*symptom, time(), "it was so before the step; look at what set it");
+  if (!unchanged) stepper_->restart(*system_, end(), y_.data());
 }
 
-Integrator::Status Integrator::advance(double target, std::optional<double> pause,
-                                       const std::function<bool()>& out_of_time, const CancelFlag* cancel,
-                                       const std::vector<double>& parameters) {
-  const double slack = 1e-9 * dt_;
-  if (target < time() - slack) fail("cannot run backwards, from time {} to {}", time(), target);
-  if (target <= time() + slack) return Status::reached;
-  load_state(parameters);
+void Integrator::leave() {
+  if (!inside_) system_->write_state(y_.data());
+  if (stepper_->remembers()) seen_ = fingerprint();
+}
+
+/// Runs `work` with the structure locked; the tissue holds the state whenever it ends.
+Integrator::Status Integrator::guarded(const std::function<Status()>& work) {
   struct Unlock {
     Tissue& tissue;
     ~Unlock() { tissue.lock(false); }
   } unlock{system_->tissue()};
   system_->tissue().lock(true);
-  const auto run = [&] {
-    while (true) {
-      if (cancel && cancel->requested()) return Status::interrupted;
-      const double next = origin_ + static_cast<double>(index_ + 1) * dt_;
-      if (next > target + slack) {
-        step(target - time(), target);
-        origin_ = target;
-        index_ = 0;
-        return Status::reached;
-      }
-      step(dt_, next);
-      ++index_;
-      if (time() >= target - slack) return Status::reached;
-      if (pause && time() >= *pause - slack) return Status::paused;
-      if (steps_ % clock_interval == 0 && out_of_time && out_of_time()) return Status::out_of_time;
-    }
-  };
   Status status = Status::interrupted;
   try {
-    status = run();
+    status = work();
   } catch (const Cancelled&) {
   } catch (...) {
-    system_->write_state(y_.data());
+    leave();
     throw;
   }
-  system_->write_state(y_.data());
+  leave();
   return status;
 }
 
-void Integrator::step(double h, double end) {
-  const std::vector<uint8_t>& flags = stepper_->step(*system_, time(), y_.data(), h, y_new_.data());
-  if (std::any_of(flags.begin(), flags.end(), [](uint8_t f) { return f != 0; })) check(flags, end);
-  if (steps_ % watch_interval < watch_length) check_oscillation(end);
+Integrator::Status Integrator::advance(double target, std::optional<double> pause,
+                                       const std::function<bool()>& out_of_time, const CancelFlag* cancel,
+                                       const std::vector<double>& parameters) {
+  if (target < time() - slack()) fail("cannot run backwards, from time {} to {}", time(), target);
+  if (target <= time() + slack()) return Status::reached;
+  enter(parameters);
+  return guarded([&] {
+    const Run arguments{target, pause, out_of_time, cancel};
+    return adaptive() ? run_adaptive(arguments) : run_fixed(arguments);
+  });
+}
+
+Integrator::Status Integrator::run_fixed(const Run& run) {
+  const double near = slack();
+  while (true) {
+    if (run.cancel && run.cancel->requested()) return Status::interrupted;
+    const double next = origin_ + static_cast<double>(index_ + 1) * dt_;
+    if (next > run.target + near) {
+      fixed_step(run.target - time(), run.target);
+      origin_ = run.target;
+      index_ = 0;
+      return Status::reached;
+    }
+    fixed_step(dt_, next);
+    ++index_;
+    if (time() >= run.target - near) return Status::reached;
+    if (run.pause && time() >= *run.pause - near) return Status::paused;
+    if (steps_ % clock_interval == 0 && run.out_of_time && run.out_of_time()) return Status::out_of_time;
+  }
+}
+
+void Integrator::fixed_step(double h, double end) {
+  const double begin = time();
+  have_last_ = have_slopes_ = false;
+  const StepResult result = stepper_->step(*system_, begin, y_.data(), h, y_new_.data());
+  if (result.failed) refuse_method(result, end);
+  if (const auto symptom = watch_.state(*system_, y_.data(), y_new_.data(), result.flags, 1e-9))
+    refuse(*symptom, end,
+           std::string(symptom->kind) == "negative"
+               ? "a concentration cannot be; try a smaller dt. If it may be negative, list it in signed = { ... } of "
+                 "tunica.model"
+               : "try a smaller dt, or look for a division by zero in its rule");
+  if (const auto symptom = watch_.oscillation(*system_, steps_, y_.data(), y_new_.data()))
+    refuse(*symptom, end, "the change turns round at every step and grows: dt is too long for this method");
   std::swap(y_, y_new_);
+  stepper_->accepted();
+  begin_ = begin;
+  have_last_ = true;
   ++steps_;
 }
 
-void Integrator::check(const std::vector<uint8_t>& flags, double time) {
-  for (size_t k = 0; k < flags.size(); ++k) {
-    const System::StateColumn& s = system_->state()[k];
-    const double* values = y_new_.data() + s.offset;
-    if (flags[k] & not_finite) {
-      for (Index i = 0; i < s.count; ++i)
-        if (!std::isfinite(values[i]))
-          refuse("not finite", k, i, values[i], time, "try a smaller dt, or look for a division by zero in its rule");
-    }
-    if ((flags[k] & negative) && watch_negative_[k]) {
-      const double* old = y_.data() + s.offset;
-      const double largest = *std::max_element(old, old + s.count);
-      for (Index i = 0; i < s.count; ++i)
-        if (values[i] < -1e-9 * largest)
-          refuse("negative", k, i, values[i], time,
-                 "a concentration cannot be; try a smaller dt. If it may be negative, list it in signed = { ... } of "
-                 "tunica.model");
-    }
+/// Whether the step is longer than the method is stable for, in words; otherwise nothing. Evaluates rates at the last
+/// good state, only when something has gone wrong.
+std::string Integrator::explanation() {
+  if (adaptive() || !(stepper_->stability() > 0)) return "";
+  try {
+    AlignedBuffer rate, vector;
+    rate.resize(system_->state_size());
+    system_->rates(time(), y_.data(), rate.data());
+    const SpectralRadius found = spectral_radius(*system_, time(), y_.data(), rate.data(), vector, 300);
+    const double limit = stepper_->stability() / found.radius;
+    if (!(limit > 0) || !std::isfinite(limit) || !(dt_ > 0.94 * limit)) return "";
+    return fmt::format(". dt = {:.4g} is {} this method's limit of about {:.3g} here", dt_,
+                       dt_ > limit ? "above" : "at", limit);
+  } catch (const std::exception&) {
+    return "";
   }
 }
 
-/// Forward-Euler instability shows as a change that turns round at every step and grows.
-void Integrator::check_oscillation(double time) {
-  const uint64_t phase = steps_ % watch_interval;
-  const size_t size = system_->state_size();
-  double* before = before_.data();
-  const double *y = y_.data(), *next = y_new_.data();
-  if (phase == 0) {
-    for (size_t i = 0; i < size; ++i) before[i] = next[i] - y[i];
-    alternations_ = 0;
-    return;
-  }
-  for (size_t k = 0; k < system_->state().size(); ++k) {
-    const System::StateColumn& s = system_->state()[k];
-    double product = 0, last = 0, now = 0, largest = 0;
-    Index where = 0;
-    for (Index i = 0; i < s.count; ++i) {
-      const double change = next[s.offset + i] - y[s.offset + i], previous = before[s.offset + i];
-      product += change * previous;
-      last += previous * previous;
-      now += change * change;
-      if (std::fabs(change) > largest) largest = std::fabs(change), where = i;
-    }
-    if (product < -0.9 * std::sqrt(last * now) && now > last && largest > 1e-6 * std::fabs(y[s.offset + where]))
-      alternations_ += 1;
-    if (phase == watch_length - 1 && alternations_ >= static_cast<int>(watch_length) - 1)
-      refuse("oscillation", k, where, next[s.offset + where], time,
-             "the change turns round at every step and grows: dt is too long for this method");
-  }
-  for (size_t i = 0; i < size; ++i) before[i] = next[i] - y[i];
+void Integrator::refuse(const Watch::Symptom& symptom, double time, const std::string& advice) {
+  const System::StateColumn& s = system_->state()[symptom.column];
+  const Id id = system_->tissue().id(s.kind, symptom.element);
+  const std::string kind = symptom.kind;
+  const std::string what = kind == "oscillation" ? fmt::format("{} swings (now {:.6g})", s.name, symptom.value)
+                           : kind == "step size" ? fmt::format("{} (now {:.6g})", s.name, symptom.value)
+                                                 : fmt::format("{} became {:.6g}", s.name, symptom.value);
+  const std::string step = adaptive() ? fmt::format("tolerance {:.6g}", tolerance_) : fmt::format("dt {:.6g}", dt_);
+  throw StepFailed({kind, time, s.name, s.kind, id, symptom.value,
+                    fmt::format("{} in {} {} at time {:.9g} (method {}, {}): {}{}", what, name_of(s.kind), id, time,
+                                stepper_->name(), step, advice, explanation())});
 }
 
-void Integrator::refuse(const char* kind, size_t column, Index element, double value, double time,
-                        const std::string& advice) {
-  const System::StateColumn& s = system_->state()[column];
-  const Id id = system_->tissue().id(s.kind, element);
-  const std::string what = std::string(kind) == "oscillation" ? fmt::format("{} swings (now {:.6g})", s.name, value)
-                                                              : fmt::format("{} became {:.6g}", s.name, value);
-  throw StepFailed({kind, time, s.name, s.kind, id, value,
-                    fmt::format("{} in {} {} at time {:.9g} (method {}, dt {:.6g}): {}", what, name_of(s.kind), id,
-                                time, stepper_->name(), dt_, advice)});
+void Integrator::refuse_method(const StepResult& result, double time) {
+  const Watch::Symptom where = Watch::most_changed(*system_, result.failed, y_.data(), y_.data());
+  const System::StateColumn& s = system_->state()[where.column];
+  throw StepFailed({result.failed, time, s.name, s.kind, system_->tissue().id(s.kind, where.element), where.value,
+                    fmt::format("the step to time {:.9g} cannot be computed (method {}, {}): {}", time,
+                                stepper_->name(), result.failed, result.detail)});
+}
+
+void Integrator::continue_from(double time, uint64_t steps) {
+  origin_ = time;
+  index_ = 0;
+  steps_ = steps;
+  inside_ = have_last_ = false;
+  seen_.clear();
 }
 
 void Integrator::save(ByteWriter& out) const {
-  out.put(origin_);
+  out.put(adaptive() ? end() : origin_);
   out.put(index_);
   out.put(steps_);
   out.put(dt_);
+  if (!stepper_->remembers()) return;
+  out.text(stepper_->name());
+  out.put(time());
+  out.put(next_);
+  out.put(error_before_);
+  out.put(longest_);
+  out.put(static_cast<uint8_t>(rejected_));
+  out.put(static_cast<uint8_t>(inside_));
+  out.put(begin_);
+  out.text(seen_);
+  out.array(y_.data(), inside_ ? y_.size() : 0);
+  out.array(y_before_.data(), inside_ ? y_before_.size() : 0);
+  ByteWriter kept;
+  stepper_->save(kept);
+  out.text(kept.bytes());
 }
 
 void Integrator::load(ByteReader& in) {
-  origin_ = in.get<double>();
-  index_ = in.get<uint64_t>();
-  steps_ = in.get<uint64_t>();
-  dt_ = in.get<double>();
+  const double origin = in.get<double>();
+  const uint64_t index = in.get<uint64_t>(), steps = in.get<uint64_t>();
+  const double dt = in.get<double>();
+  std::string method;
+  double shown = index == 0 ? origin : origin + static_cast<double>(index) * dt;
+  if (!in.at_end()) {
+    method = in.text();
+    shown = in.get<double>();
+  }
+  if ((method.empty() ? stepper_->remembers() : method != stepper_->name()) || (!adaptive() && dt != dt_)) {
+    continue_from(shown, steps);
+    return;
+  }
+  continue_from(origin, steps);
+  index_ = index;
+  if (method.empty()) return;
+  next_ = in.get<double>();
+  error_before_ = in.get<double>();
+  longest_ = in.get<double>();
+  rejected_ = in.get<uint8_t>() != 0;
+  inside_ = in.get<uint8_t>() != 0;
+  shown_ = shown;
+  begin_ = in.get<double>();
+  seen_ = in.text();
+  for (AlignedBuffer* buffer : {&y_, &y_before_}) {
+    const auto values = in.array<double>();
+    if (!inside_) continue;
+    buffer->resize(values.size());
+    std::copy(values.begin(), values.end(), buffer->data());
+  }
+  const std::string kept = in.text();
+  ByteReader reader(kept);
+  stepper_->load(reader);
 }
 
 }  // namespace tunica

@@ -2,77 +2,114 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "base/bytes.h"
 #include "solve/stepper.h"
+#include "solve/watch.h"
 
 namespace tunica {
 
-/// Why a step was refused. The state is the one before the bad step.
-struct Failure {
-  std::string kind;  ///< "not finite", "negative", "oscillation"
-  double time;       ///< at the end of the refused step
-  std::string column;
-  Kind element;
-  Id id;  ///< of the cell (wall, side) where it shows
-  double value;
-  std::string message;  ///< all of this, and what to try
-};
-
-class StepFailed : public Error {
- public:
-  explicit StepFailed(Failure f) : Error(f.message), failure(std::move(f)) {}
-  Failure failure;
-};
-
-/// Takes fixed steps through time with one method, watching each. Steps lie on a grid of multiples of `dt`; a target
-/// (an event) off the grid is met by one shorter step, from which a new grid begins. Where output is wanted, or how
-/// often a run is interrupted at multiples of `dt`, changes no step.
+/// Takes a model through time with one method, watching each step.
+///
+/// Fixed steps lie on a grid of multiples of `dt`; a target (an event) off the grid is met by one shorter step, from
+/// which a new grid begins. Adaptive steps are as long as the tolerance and `dt` allow; the one that would pass the
+/// target is cut to meet it. Where output is wanted, or how often a run is interrupted, changes no step: fixed steps
+/// pause at the end of a step, adaptive ones show the state interpolated to the moment asked for and go on from the
+/// real one, unless what the tissue holds was changed meanwhile.
 class Integrator {
  public:
-  Integrator(std::shared_ptr<System> system, std::unique_ptr<Stepper> stepper, double dt);
+  static constexpr double unlimited = std::numeric_limits<double>::infinity();
+  /// `dt`: the step, or the longest that an adaptive method takes. `tolerance`: the one given to the stepper.
+  Integrator(std::shared_ptr<System> system, std::unique_ptr<Stepper> stepper, double dt, double tolerance = 1e-6);
 
-  double time() const { return origin_ + static_cast<double>(index_) * dt_; }
+  double time() const { return inside_ ? shown_ : end(); }  ///< of the state that the tissue holds
   uint64_t steps() const { return steps_; }
   const Stepper& stepper() const { return *stepper_; }
   System& system() { return *system_; }
   double dt() const { return dt_; }
+  bool adaptive() const { return stepper_->steps() != Stepper::Steps::fixed; }
+  double slack() const;  ///< times nearer than this are the same
+  Work work() const;     ///< of the method, and of what is done around its steps
 
   enum class Status { reached, paused, out_of_time, interrupted };
-  /// Steps towards `target`. Pauses after the first step that ends at or after `pause`; returns when `out_of_time()`
-  /// says so (asked now and then). The tissue holds the state whenever this returns or throws. Errors: StepFailed;
-  /// Cancelled is turned into Status::interrupted.
+  /// Steps towards `target`. Pauses at `pause` (fixed steps: after the first step that ends then or later; in the past:
+  /// after one step); returns when `out_of_time()` says so (asked now and then). The tissue holds the state whenever
+  /// this returns or throws. Errors: StepFailed; Cancelled is turned into Status::interrupted.
   Status advance(double target, std::optional<double> pause, const std::function<bool()>& out_of_time,
                  const CancelFlag* cancel, const std::vector<double>& parameters);
 
-  /// Columns in which negative values are meant (displacements); all others that begin non-negative must stay so.
-  void allow_negative(std::vector<std::string> columns) { signed_ = std::move(columns); }
+  /// The last step, if it can still be looked into: nothing was changed or loaded since.
+  struct Step {
+    double begin, end;
+  };
+  std::optional<Step> last_step() const;
+  /// Lets the tissue hold the state at a time within the last step, interpolated; time() is then this one.
+  void show(double time);
+  /// Takes the last step back and goes from its start to `time` within it, exactly: for an event that is due there.
+  void retake(double time, const CancelFlag* cancel);
+
+  void allow_negative(std::vector<std::string> columns) { watch_.allow_negative(std::move(columns)); }
+  /// What the rules say has changed: what the method keeps is to be forgotten.
+  void rules_changed() { seen_.clear(); }
+  /// Goes on from the time and steps of another method.
+  void continue_from(double time, uint64_t steps);
 
   void save(ByteWriter& out) const;
+  /// What was saved under another method gives time and number of steps only.
   void load(ByteReader& in);
 
  private:
-  void load_state(const std::vector<double>& parameters);
-  void step(double h, double end);
-  void check(const std::vector<uint8_t>& flags, double time);
-  void check_oscillation(double time);
-  [[noreturn]] void refuse(const char* kind, size_t column, Index element, double value, double time,
-                           const std::string& advice);
+  struct Run;  // arguments of one advance()
+  double end() const { return index_ == 0 ? origin_ : origin_ + static_cast<double>(index_) * dt_; }
+  AlignedBuffer& before() { return adaptive() ? y_before_ : y_new_; }
+  void enter(const std::vector<double>& parameters);
+  void leave();
+  std::string fingerprint() const;
+  Status guarded(const std::function<Status()>& work);
+  Status run(const Run& run);
+  Status run_fixed(const Run& run);
+  Status run_adaptive(const Run& run);
+  std::optional<Status> within_last_step(const Run& run);
+  void back();
+  void fixed_step(double h, double end);
+  void adaptive_step(double target);
+  void accept(const StepResult& result, bool shortened);
+  void reject(const StepResult& result, const std::optional<Watch::Symptom>& symptom);
+  double first_length();
+  void interpolate(double time, double* y);
+  [[noreturn]] void refuse(const Watch::Symptom& symptom, double time, const std::string& advice);
+  [[noreturn]] void refuse_method(const StepResult& result, double time);
+  std::string explanation();
 
   std::shared_ptr<System> system_;
   std::unique_ptr<Stepper> stepper_;
-  double dt_;
-  double origin_ = 0;   ///< of the grid of steps
-  uint64_t index_ = 0;  ///< steps taken on it
+  double dt_, tolerance_;
+  double origin_ = 0;   ///< fixed: of the grid of steps; adaptive: end of the last step
+  uint64_t index_ = 0;  ///< fixed: steps taken on it
   uint64_t steps_ = 0;
-  AlignedBuffer y_, y_new_, before_;
-  std::vector<std::string> signed_;
-  std::vector<uint8_t> watch_negative_;
-  int alternations_ = 0;
+  AlignedBuffer y_, y_new_;  ///< fixed: between steps, y_new_ is the state before the last step
+  AlignedBuffer y_before_;   ///< adaptive: the same
+  Watch watch_;
+
+  double begin_ = 0;        ///< of the last step
+  bool have_last_ = false;  ///< the last step can be looked into
+  bool inside_ = false;     ///< the tissue holds the state at shown_, within the last step
+  double shown_ = 0;
+  bool have_slopes_ = false;
+  AlignedBuffer slope_begin_, slope_end_;
+  std::string seen_;  ///< fingerprint of what the tissue held and the parameters when last left
+  std::vector<double> parameters_;
+
+  double next_ = 0;           ///< length to try next; 0: to be found
+  double error_before_ = 1;   ///< of the last accepted step
+  double longest_ = 0;        ///< step tried so far
+  bool rejected_ = false;     ///< the last try
+  uint64_t rejections_ = 0;   ///< in all
+  uint64_t evaluations_ = 0;  ///< other than those of the method
 };
 
 }  // namespace tunica

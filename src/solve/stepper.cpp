@@ -1,60 +1,35 @@
 // SPDX-License-Identifier: MIT
 #include "solve/stepper.h"
 
-#include <algorithm>
+#include "solve/chebyshev.h"
+#include "solve/runge_kutta.h"
 
 namespace tunica {
 
-namespace {
+const std::vector<MethodInfo>& methods() {
+  using Steps = Stepper::Steps;
+  static const std::vector<MethodInfo> table{
+      {"euler", "forward Euler", 1, Steps::fixed, false, make_euler},
+      {"heun", "explicit trapezoid (Heun)", 2, Steps::fixed, false, make_heun},
+      {"rk4", "classical Runge-Kutta", 4, Steps::fixed, false, make_rk4},
+      {"bs32", "Bogacki-Shampine 3(2)", 3, Steps::adaptive, false, make_bs32},
+      {"dp54", "Dormand-Prince 5(4)", 5, Steps::adaptive, false, make_dp54},
+      {"rkc2", "Runge-Kutta-Chebyshev, for diffusion", 2, Steps::adaptive, false, make_rkc2, true},
+  };
+  return table;
+}
 
-class Euler : public Stepper {
- public:
-  const char* name() const override { return "euler"; }
-  int order() const override { return 1; }
-  const std::vector<uint8_t>& step(System& system, double t, const double* y, double h, double* y_new) override {
-    return system.euler(t, y, h, y_new);
+const MethodInfo& find_method(const std::string& name) {
+  std::vector<std::string> names;
+  for (const MethodInfo& m : methods()) {
+    if (name == m.name) return m;
+    names.push_back(m.name);
   }
-};
+  fail("unknown method '{}'{}; there are: {}", name, did_you_mean(name, names), fmt::join(names, ", "));
+}
 
-/// y* = y + h f(t, y);  y_new = y + h/2 (f(t, y) + f(t + h, y*))
-class Heun : public Stepper {
- public:
-  const char* name() const override { return "heun"; }
-  int order() const override { return 2; }
-  const std::vector<uint8_t>& step(System& system, double t, const double* y, double h, double* y_new) override {
-    const size_t size = system.state_size();
-    for (AlignedBuffer* buffer : {&first_, &second_})
-      if (buffer->size() != size) buffer->resize(size);
-    system.rates(t, y, first_.data());
-    for (size_t i = 0; i < size; ++i) y_new[i] = y[i] + h * first_.data()[i];
-    system.rates(t + h, y_new, second_.data());
-    for (size_t i = 0; i < size; ++i) y_new[i] = y[i] + 0.5 * h * (first_.data()[i] + second_.data()[i]);
-    flags_.assign(system.state().size(), 0);
-    for (size_t k = 0; k < flags_.size(); ++k) {
-      const System::StateColumn& s = system.state()[k];
-      for (Index i = 0; i < s.count; ++i) {
-        const double value = y_new[s.offset + i];
-        if (!(value - value == 0)) flags_[k] |= not_finite;
-        if (value < 0) flags_[k] |= negative;
-      }
-    }
-    return flags_;
-  }
-
- private:
-  AlignedBuffer first_, second_;
-  std::vector<uint8_t> flags_;
-};
-
-}  // namespace
-
-std::vector<std::string> stepper_names() { return {"euler", "heun"}; }
-
-std::unique_ptr<Stepper> make_stepper(const std::string& name) {
-  if (name == "euler") return std::make_unique<Euler>();
-  if (name == "heun") return std::make_unique<Heun>();
-  fail("unknown method '{}'{}; there are: {}", name, did_you_mean(name, stepper_names()),
-       fmt::join(stepper_names(), ", "));
+std::unique_ptr<Stepper> make_stepper(const std::string& name, const StepperOptions& options) {
+  return find_method(name).make(options);
 }
 
 }  // namespace tunica
