@@ -167,7 +167,9 @@ void System::add_values(const std::vector<NodeId>& nodes) {
   std::vector<Output> outputs;
   for (const NodeId id : nodes) outputs.push_back({-1, id, false});
   values_ = compile(outputs);
+  if (topology_version_ == 0) return;
   topology_version_ = 0;  // its buffers are made with the rest
+  prepare(std::vector<double>(parameters_));
 }
 
 void System::compute_values(double t, const double* y) {

@@ -53,8 +53,7 @@ class System {
   /// Writes all derived columns of the tissue for state y.
   void derive(double t, const double* y);
 
-  /// Further values to be computed from a state (the entries of a Jacobian): nodes of the equations' graph. To be added
-  /// before prepare().
+  /// Further values to be computed from a state (the entries of a Jacobian): nodes of the equations' graph.
   void add_values(const std::vector<NodeId>& nodes);
   /// Computes them; they stay until the next prepare() or compute_values().
   void compute_values(double t, const double* y);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "solve/stepper.h"
 
+#include "solve/bdf.h"
 #include "solve/chebyshev.h"
+#include "solve/implicit.h"
 #include "solve/runge_kutta.h"
 
 namespace tunica {
@@ -15,6 +17,10 @@ const std::vector<MethodInfo>& methods() {
       {"bs32", "Bogacki-Shampine 3(2)", 3, Steps::adaptive, false, make_bs32},
       {"dp54", "Dormand-Prince 5(4)", 5, Steps::adaptive, false, make_dp54},
       {"rkc2", "Runge-Kutta-Chebyshev, for diffusion", 2, Steps::adaptive, false, make_rkc2, true},
+      {"backward_euler", "backward Euler, modified Newton", 1, Steps::fixed, true, make_backward_euler},
+      {"crank_nicolson", "Crank-Nicolson, modified Newton", 2, Steps::fixed, true, make_crank_nicolson},
+      {"bicg", "Crank-Nicolson, Newton with biconjugate gradients", 2, Steps::fixed, true, make_bicg},
+      {"bdf", "backward differentiation formulas (CVODE)", 5, Steps::own, true, make_bdf},
   };
   return table;
 }
