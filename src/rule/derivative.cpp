@@ -11,6 +11,78 @@ namespace {
 
 using Partials = std::map<std::pair<int, Site>, NodeId>;
 
+NodeId choose(Graph& g, NodeId condition, double yes, double no) {
+  return g.select(condition, g.constant(yes), g.constant(no));
+}
+
+/// d(node) / d(first operand)
+NodeId by_first(Graph& g, NodeId id, const Node& n) {
+  const NodeId one = g.constant(1);
+  switch (n.op) {
+    case Op::neg:
+      return g.constant(-1);
+    case Op::exp:
+      return id;
+    case Op::log:
+      return g.binary(Op::div, one, n.a);
+    case Op::sqrt:
+      return g.binary(Op::div, g.constant(0.5), id);
+    case Op::sin:
+      return g.unary(Op::cos, n.a);
+    case Op::cos:
+      return g.unary(Op::neg, g.unary(Op::sin, n.a));
+    case Op::tanh: {  // 4 e / (1 + e)^2 with e = exp(-2 |x|): 1 - tanh(x)^2 loses its digits for large |x|
+      const NodeId e = g.unary(Op::exp, g.binary(Op::mul, g.constant(-2), g.unary(Op::abs, n.a)));
+      const NodeId sum = g.binary(Op::add, one, e);
+      return g.binary(Op::div, g.binary(Op::mul, g.constant(4), e), g.binary(Op::mul, sum, sum));
+    }
+    case Op::abs:
+      return choose(g, g.binary(Op::less, n.a, g.constant(0)), -1, 1);
+    case Op::add:
+    case Op::sub:
+      return one;
+    case Op::mul:
+      return n.b;
+    case Op::div:
+      return g.binary(Op::div, one, n.b);
+    case Op::pow:  // b a^(b - 1)
+      return g.binary(Op::mul, n.b, g.binary(Op::pow, n.a, g.binary(Op::sub, n.b, one)));
+    case Op::min:
+      return choose(g, g.binary(Op::less, n.a, n.b), 1, 0);
+    case Op::max:
+      return choose(g, g.binary(Op::less, n.b, n.a), 1, 0);
+    default:  // comparisons, and what select decides by
+      return g.constant(0);
+  }
+}
+
+/// d(node) / d(second operand)
+NodeId by_second(Graph& g, NodeId id, const Node& n) {
+  switch (n.op) {
+    case Op::add:
+      return g.constant(1);
+    case Op::sub:
+      return g.constant(-1);
+    case Op::mul:
+      return n.a;
+    case Op::div:  // -(a / b) / b
+      return g.unary(Op::neg, g.binary(Op::div, id, n.b));
+    case Op::pow:
+      return g.binary(Op::mul, id, g.unary(Op::log, n.a));
+    case Op::min:
+      return choose(g, g.binary(Op::less, n.a, n.b), 0, 1);
+    case Op::max:
+      return choose(g, g.binary(Op::less, n.b, n.a), 0, 1);
+    case Op::select:
+      return choose(g, n.a, 1, 0);
+    default:
+      return g.constant(0);
+  }
+}
+
+/// d(select) / d(third operand)
+NodeId by_third(Graph& g, const Node& n) { return choose(g, n.a, 0, 1); }
+
 /// Forward differentiation of a graph, node by node; the rules are those of apply() in graph.h.
 class Differentiator {
  public:
@@ -35,6 +107,7 @@ class Differentiator {
       }
       result_.variables[k].partials = listed(sum);
     }
+    find_linear();
     for (const DirectRule& rule : e_.direct_rates) result_.missing.push_back(rule.where);
     for (const DirectRule& rule : e_.direct_derivations) result_.missing.push_back(rule.where);
     return std::move(result_);
@@ -160,80 +233,52 @@ class Differentiator {
       const Partials inner = of(x);
       if (!inner.empty()) add(result, inner, factor());
     };
-    part(n.a, [&] { return by_first(id, n); });
-    part(n.b, [&] { return by_second(id, n); });
-    part(n.c, [&] { return n.op == Op::select ? g_.select(n.a, g_.constant(0), g_.constant(1)) : g_.constant(0); });
+    part(n.a, [&] { return by_first(g_, id, n); });
+    part(n.b, [&] { return by_second(g_, id, n); });
+    part(n.c, [&] { return by_third(g_, n); });
     return result;
   }
 
-  NodeId less(NodeId a, NodeId b) { return g_.binary(Op::less, a, b); }
-  NodeId choose(NodeId condition, double yes, double no) {
-    return g_.select(condition, g_.constant(yes), g_.constant(no));
+  // === Linear rates
+  void find_linear() {
+    result_.linear = true;
+    for (const Derivative::Variable& variable : result_.variables)
+      for (const Partial& partial : variable.partials) result_.linear = result_.linear && !changes(partial.value);
+    if (!result_.linear || result_.states != 1 || result_.variables[0].kind != Kind::cell) return;
+    result_.uniform = g_.constant(0);
+    for (const Target& rate : e_.rates) result_.uniform = g_.binary(Op::add, result_.uniform, raised(rate.value));
   }
 
-  /// d(node) / d(first operand)
-  NodeId by_first(NodeId id, const Node& n) {
-    const NodeId one = g_.constant(1);
+  /// d(node) when the state column is raised by 1 everywhere.
+  NodeId raised(NodeId id) {
+    if (id == no_node || !changes(id)) return g_.constant(0);
+    const Node n = g_[id];
     switch (n.op) {
-      case Op::neg:
-        return g_.constant(-1);
-      case Op::exp:
-        return id;
-      case Op::log:
-        return g_.binary(Op::div, one, n.a);
-      case Op::sqrt:
-        return g_.binary(Op::div, g_.constant(0.5), id);
-      case Op::sin:
-        return g_.unary(Op::cos, n.a);
-      case Op::cos:
-        return g_.unary(Op::neg, g_.unary(Op::sin, n.a));
-      case Op::tanh: {  // 4 e / (1 + e)^2 with e = exp(-2 |x|): 1 - tanh(x)^2 loses its digits for large |x|
-        const NodeId e = g_.unary(Op::exp, g_.binary(Op::mul, g_.constant(-2), g_.unary(Op::abs, n.a)));
-        const NodeId sum = g_.binary(Op::add, one, e);
-        return g_.binary(Op::div, g_.binary(Op::mul, g_.constant(4), e), g_.binary(Op::mul, sum, sum));
-      }
-      case Op::abs:
-        return choose(less(n.a, g_.constant(0)), -1, 1);
-      case Op::add:
-      case Op::sub:
-        return one;
-      case Op::mul:
-        return n.b;
-      case Op::div:
-        return g_.binary(Op::div, one, n.b);
-      case Op::pow:  // b a^(b - 1)
-        return g_.binary(Op::mul, n.b, g_.binary(Op::pow, n.a, g_.binary(Op::sub, n.b, one)));
-      case Op::min:
-        return choose(less(n.a, n.b), 1, 0);
-      case Op::max:
-        return choose(less(n.b, n.a), 1, 0);
-      default:  // comparisons, and what select decides by
-        return g_.constant(0);
-    }
-  }
-
-  /// d(node) / d(second operand)
-  NodeId by_second(NodeId id, const Node& n) {
-    switch (n.op) {
-      case Op::add:
+      case Op::cell_column:
         return g_.constant(1);
-      case Op::sub:
-        return g_.constant(-1);
-      case Op::mul:
-        return n.a;
-      case Op::div:  // -(a / b) / b
-        return g_.unary(Op::neg, g_.binary(Op::div, id, n.b));
-      case Op::pow:
-        return g_.binary(Op::mul, id, g_.unary(Op::log, n.a));
-      case Op::min:
-        return choose(less(n.a, n.b), 0, 1);
-      case Op::max:
-        return choose(less(n.b, n.a), 0, 1);
-      case Op::select:
-        return choose(n.a, 1, 0);
+      case Op::own:
+        return g_.own(raised(n.a));
+      case Op::across:
+        return g_.across(raised(n.a));
+      case Op::sum:
+      case Op::flux_sum: {
+        const NodeId body = raised(n.a);
+        return g_.is_constant(body, 0) ? body : g_.reduce(Op::sum, body);
+      }
       default:
-        return g_.constant(0);
+        break;
     }
+    NodeId total = g_.constant(0);
+    const auto part = [&](NodeId x, NodeId factor) {
+      if (x == no_node || !changes(x)) return;
+      const NodeId inner = raised(x);
+      if (g_.is_constant(inner, 0) || g_.is_constant(factor, 0)) return;
+      total = g_.binary(Op::add, total, g_.binary(Op::mul, factor, inner));
+    };
+    part(n.a, by_first(g_, id, n));
+    if (n.b != no_node) part(n.b, by_second(g_, id, n));
+    if (n.c != no_node) part(n.c, by_third(g_, n));
+    return total;
   }
 
   // === Where rules bend

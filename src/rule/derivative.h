@@ -39,6 +39,11 @@ struct Derivative {
   std::vector<Variable> variables;  ///< the state columns in order, then the intermediates
   int states = 0;
   std::vector<int> order;  ///< the intermediates, each after those it depends on
+  /// No partial depends on the state: the rates are linear in it (but for a constant).
+  bool linear = false;
+  /// Linear rates of one cell column: d rate / d (the column, raised everywhere alike). Differences between neighbours
+  /// drop out before anything is computed, so that a decay however slow keeps its digits.
+  NodeId uniform = no_node;
   /// Operations that bend: min, max, abs, where and comparisons, as "max in file:line".
   std::vector<std::string> kinks;
   /// Rules that were not traced and are not in the derivative: their places.

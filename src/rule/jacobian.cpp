@@ -35,6 +35,10 @@ Jacobian::Jacobian(System& system) : system_(system) {
   }
   matrix_of_.assign(derivative_.variables.size(), -1);
   for (size_t k = 0; k < derivative_.order.size(); ++k) matrix_of_[derivative_.order[k]] = static_cast<int>(k) + 1;
+  if (derivative_.uniform != no_node) {
+    uniform_value_ = nodes.size();
+    nodes.push_back(derivative_.uniform);
+  }
   system.add_values(nodes);
 }
 
@@ -206,6 +210,8 @@ void Jacobian::fill(int matrix) {
     }
   }
 }
+
+void Jacobian::evaluate_partials(double t, const double* y) { system_.compute_values(t, y); }
 
 void Jacobian::evaluate(double t, const double* y) {
   ++evaluations_;

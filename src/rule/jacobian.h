@@ -33,10 +33,20 @@ class Jacobian {
   /// Operations that bend (max, where, ...), with the rules' places.
   const std::vector<std::string>& kinks() const { return derivative_.kinks; }
 
+  /// The rates are linear in the state, but for a constant.
+  bool linear() const { return derivative_.linear; }
+  const Derivative& derivative() const { return derivative_; }
+  /// Values of the last evaluation: of partial p of variable v, and of Derivative::uniform.
+  System::Values partial(int v, size_t p) const { return system_.values(value_of_[v][p]); }
+  System::Values uniform() const { return system_.values(uniform_value_); }
+
   /// After System::prepare(): the pattern, if the structure has changed.
   void prepare();
   /// The entries at state y (padded, as System has it).
   void evaluate(double t, const double* y);
+
+  /// The partials alone, without the matrix (and without prepare()).
+  void evaluate_partials(double t, const double* y);
 
   int size() const { return size_; }
   size_t intermediates() const { return derivative_.order.size(); }
@@ -84,6 +94,7 @@ class Jacobian {
   Derivative derivative_;
   std::vector<int> matrix_of_;                 ///< per variable that is an intermediate
   std::vector<std::vector<size_t>> value_of_;  ///< per variable and partial: in System::values
+  size_t uniform_value_ = 0;
   std::vector<SparseRows> matrices_;
   std::vector<Filling> fillings_;
   std::vector<int32_t> offsets_;

@@ -45,6 +45,8 @@ System::System(std::shared_ptr<Equations> equations, std::shared_ptr<Tissue> tis
       same->value = e.graph.binary(Op::add, same->value, rate.value);
   }
   main_ = compile(rates);
+  cells_only_ = !has_direct();
+  for (const StateColumn& s : state_) cells_only_ = cells_only_ && s.kind == Kind::cell;
 }
 
 System::~System() = default;
@@ -158,7 +160,7 @@ void System::add_direct_rates(double t, double* dydt) {
 void System::rates(double t, const double* y, double* dydt) {
   ++evaluations_;
   if (has_direct()) derive(t, y);
-  std::fill_n(dydt, state_size_, 0.0);
+  if (!cells_only_) std::fill_n(dydt, state_size_, 0.0);  // sides of the border and direct rules leave gaps
   run(main_, t, y, dydt, 0, nullptr);
   add_direct_rates(t, dydt);
 }
@@ -167,9 +169,9 @@ void System::add_values(const std::vector<NodeId>& nodes) {
   std::vector<Output> outputs;
   for (const NodeId id : nodes) outputs.push_back({-1, id, false});
   values_ = compile(outputs);
-  if (topology_version_ == 0) return;
-  topology_version_ = 0;  // its buffers are made with the rest
-  prepare(std::vector<double>(parameters_));
+  if (topology_version_ == 0) return;  // prepare() is still to come
+  allocate(values_);
+  run_fixed(values_);
 }
 
 void System::compute_values(double t, const double* y) {
@@ -204,9 +206,7 @@ System::Values System::values(size_t k) const {
 
 const std::vector<uint8_t>& System::euler(double t, const double* y, double h, double* y_new) {
   std::fill(flags_.begin(), flags_.end(), 0);
-  bool cells_only = !has_direct();
-  for (const StateColumn& s : state_) cells_only = cells_only && s.kind == Kind::cell;
-  if (cells_only) {
+  if (cells_only_) {
     ++evaluations_;
     run(main_, t, y, nullptr, h, y_new);
     return flags_;

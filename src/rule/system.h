@@ -68,6 +68,7 @@ class System {
   Equations& equations() { return *equations_; }
   const Equations& equations() const { return *equations_; }
   Tissue& tissue() { return *tissue_; }
+  const Tissue& tissue() const { return *tissue_; }
   const Plan& plan() const { return main_.plan; }
   uint64_t evaluations() const { return evaluations_; }
 
@@ -102,6 +103,7 @@ class System {
   std::vector<StateColumn> state_;
   std::vector<int> state_of_column_;  ///< index into state_, or -1
   size_t state_size_ = 0;
+  bool cells_only_ = false;  ///< all rates are traced ones of cells: each is written whole, whatever was there
   std::unique_ptr<Layout> layout_;
   std::vector<std::vector<int32_t>> wall_indices_;  ///< own, across, wall, side, mirror per wall, when needed
   uint64_t topology_version_ = 0;
