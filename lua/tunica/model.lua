@@ -73,7 +73,8 @@ op { name = "tunica.model", kind = "named", returns = "a model",
     end
     local model = setmetatable({}, meta)
     inside[model] = { tissue = o.tissue, params = o.params or params.current(), dt = o.dt, method = o.method, threads = o.threads,
-      signed = o.signed, stop = o.stop, rules = {}, events = {}, conditions = {}, views = {}, reports = {}, saved_time = 0, stale = true, warnings = {} }
+      signed = o.signed, stop = o.stop, rules = {}, events = {}, conditions = {}, views = {}, reports = {}, saved_time = 0, stale = true, warnings = {},
+      where = registry.where() }
     return model
   end }
 
@@ -84,10 +85,15 @@ local kinds = { "cell", "side", "wall" }
 local function add_rule(what)
   return function(model, kind_or_fn, fn)
     local kind = "cell"
-    if type(kind_or_fn) == "string" then kind = kind_or_fn elseif fn == nil then fn = kind_or_fn end
+    if type(kind_or_fn) == "string" then
+      kind = kind_or_fn
+    else
+      if fn ~= nil then fail("model:%s takes one rule at a time, came two functions; call it once for each", what) end
+      fn = kind_or_fn
+    end
     if type(fn) ~= "function" then fail("model:%s: a rule must be a function, came %s", what, core.describe(fn)) end
     local my = inside[model]
-    my.rules[#my.rules + 1] = { what = what, kind = kind, fn = fn, where = core.where():gsub(":%s*$", "") }
+    my.rules[#my.rules + 1] = { what = what, kind = kind, fn = fn, where = registry.where() }
     my.stale = true
   end
 end
@@ -109,7 +115,7 @@ op { name = "model:flux", returns = nil, source = "thesis 5.9",
   example = header .. [[model:flux("auxin", function(w, a, b) return a.auxin - b.auxin end)]],
   fn = function(model, column, fn)
     local my = inside[model]
-    my.rules[#my.rules + 1] = { what = "flux", kind = "wall", column = column, fn = fn, where = core.where():gsub(":%s*$", "") }
+    my.rules[#my.rules + 1] = { what = "flux", kind = "wall", column = column, fn = fn, where = registry.where() }
     my.stale = true
   end }
 
@@ -117,7 +123,15 @@ op { name = "model:flux", returns = nil, source = "thesis 5.9",
 
 local function event(kind, time, fn) return { kind = kind, time = time, fn = fn, fired = 0 } end
 
+-- So many events in one step are a mistake in a unit; far shorter intervals would fire for ever and not move the time.
+local most_in_a_step = 1000
+
 op { name = "model:every", fn = function(model, interval, fn)
+    local dt = inside[model].dt
+    if interval < dt / most_in_a_step then
+      fail("model:every: the interval %.6g is far below the model's step dt = %.6g: more than %d events in a step", interval, dt,
+        most_in_a_step)
+    end
     local e = event("every", interval, fn)
     e.fired = math.floor(model.time / interval + 1e-9)  -- those before now are past
     table.insert(inside[model].events, e)
@@ -184,6 +198,18 @@ local function in_order(list)
   return ordered
 end
 
+--- A name in `signed` that no rule changes would be without effect: most likely it is misspelt.
+local function check_signed(my, machine)
+  local names, known = core.machine_state(machine), {}
+  for _, name in ipairs(names) do known[name] = true end
+  for _, name in ipairs(my.signed) do
+    if not known[name] then
+      registry.fail_at(my.where, "tunica.model: 'signed' names '%s', but no rate or flux changes a column of this name%s", name,
+        core.did_you_mean(name, names))
+    end
+  end
+end
+
 --- Traces what can be traced; rules named in `direct` run as they are.
 local function build(my)
   local set, index = core.rules(my.tissue), 0
@@ -201,7 +227,9 @@ local function build(my)
       r.index = index
     end
   end
-  return set, core.machine(set, my.method, my.dt, my.threads, my.signed)
+  local machine = core.machine(set, my.method, my.dt, my.threads, my.signed)
+  check_signed(my, machine)
+  return set, machine
 end
 
 local function verify(my, set, machine)

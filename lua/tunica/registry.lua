@@ -20,13 +20,22 @@ local core = require "tunica.core"
 local registry = {}
 local entries, by_name = {}, {}
 
---- Raises an error that points at the innermost line of the user's own code.
-local function fail(format, ...)
+local function raise(where, format, ...)
   local text = select("#", ...) > 0 and string.format(format, ...) or format
   if #text > 1000 then text = text:sub(1, 1000) .. " ..." end  -- a value quoted in it was long
-  error(core.where() .. text, 0)
+  error(where .. text, 0)
 end
+
+--- Raises an error that points at the innermost line of the user's own code.
+local function fail(format, ...) raise(core.where(), format, ...) end
 registry.fail = fail
+
+--- Raises an error that points at a place noted before (registry.where): of the rule that is wrong, not of the call that
+-- found it out.
+function registry.fail_at(where, format, ...) raise(where == "" and "" or where .. ": ", format, ...) end
+
+--- The innermost line of the user's own code, as "file:line".
+function registry.where() return (core.where():gsub(":%s*$", "")) end
 
 -- Types ------------------------------------------------------------------------------------------------------------
 

@@ -205,6 +205,20 @@ int cost(lua_State* L) {
   });
 }
 
+/// machine_state(machine) -> names of the columns that rates change
+int state(lua_State* L) {
+  return guard(L, [&] {
+    const Machine& m = object_at<Machine>(L, 1);
+    lua_newtable(L);
+    int count = 0;
+    for (const System::StateColumn& column : m.system->state()) {
+      lua_pushstring(L, column.name.c_str());
+      lua_rawseti(L, -2, ++count);
+    }
+    return 1;
+  });
+}
+
 int save(lua_State* L) {
   return guard(L, [&] {
     const Machine& m = object_at<Machine>(L, 1);
@@ -336,6 +350,7 @@ void register_model(lua_State* L) {
                                 {"check_lowering", check_lowering},
                                 {"machine_time", time},
                                 {"machine_cost", cost},
+                                {"machine_state", state},
                                 {"machine_save", save},
                                 {"machine_load", load},
                                 {"tissue_save", tissue_save},
