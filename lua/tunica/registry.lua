@@ -3,6 +3,7 @@
 -- reference page and the fuzz test.
 --
 --   op { name = "tissue:divide",      -- "owner:method", "owner.property" or "tunica.function"
+--        changes = true,              -- what rules read or are part of: rules cannot call it
 --        kind = "named",              -- "positional" (default), "named" (one table of options) or "property"
 --        args = { { name = "above", type = "number", above = 0, unit = "area", doc = "..." }, ... },
 --        rest = { type = "any" },     -- named only: other keys are allowed, with values of this type (columns)
@@ -252,6 +253,7 @@ local function make_function(entry)
     if registry.tracing then
       fail("%s gives what holds at one moment, so a rule that calls it cannot be traced", entry.name)
     end
+    if entry.changes and core.in_rule() then fail("%s: a rule cannot call it; rules only compute", entry.name) end
     if not is(self) then
       fail("%s: write it with a colon, behind a %s; before the colon came %s", entry.name, entry.owner, core.describe(self))
     end
