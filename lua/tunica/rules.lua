@@ -41,7 +41,14 @@ declare("clamp", "clamp(5, 0, 1)", { x, { name = "low", type = "any", required =
 declare("step", "step(2)", { x }, "1 where x >= 0, else 0.", function(v) return f.at_most(0, v) end)
 declare("hill", "hill(2, 1, 4)", { x, { name = "half", type = "any", required = true, doc = "x at which the value is 1/2" },
   { name = "n", type = "any", default = 2, doc = "steepness" } }, "Saturation x^n / (half^n + x^n), for x >= 0.",
-  function(v, half, n) return v ^ n / (half ^ n + v ^ n) end)
+  function(v, half, n)
+    for _, value in ipairs { v, half, n } do
+      if type(value) ~= "number" and type(value) ~= "userdata" then
+        registry.fail("tunica.hill takes numbers or values of a rule, came %s", core.describe(value))
+      end
+    end
+    return v ^ n / (half ^ n + v ^ n)
+  end)
 
 local more = { x }
 for i = 2, 8 do more[i] = { name = "x" .. i, type = "any", doc = "another" } end

@@ -186,3 +186,35 @@ do
     misspelt:advance { to = 1 }
   end, "'loaf'", "did you mean 'load'")
 end
+
+-- One place before the message, whoever found the mistake: of what is wrong, in the script.
+do
+  local function one_place(set_up, ...)
+    local tissue = sheet()
+    local model = tunica.model { tissue = tissue, dt = 0.1 }
+    set_up(model, tissue)
+    local ok, message = pcall(model.advance, model, { to = 1 })
+    assert(not ok, "an error was expected")
+    local info = debug.getinfo(set_up, "S")
+    local line, rest = message:match "^rule_faults_test%.lua:(%d+): (.*)$"
+    line = tonumber(line)
+    assert(line and line >= info.linedefined and line <= info.lastlinedefined, message)
+    assert(not rest:find "lua:%d", message)
+    for _, text in ipairs { ... } do assert(rest:find(text, 1, true), message) end
+  end
+  one_place(function(m) m:at(0.1, function() error "in the event" end) end, "in the event")
+  one_place(function(m, t) m:at(0.1, function() t:divide { where = function() error "inside" end } end) end, "inside")
+  one_place(function(m, t) m:at(0.1, function() t:find(1).axin = 1 end) end, "axin")
+  one_place(function(m) m:when(function() error "asked" end, print) end, "asked")
+  one_place(function(m) m:rate(function(c, d) d.auxin = direct(c) and error "late" end) end, "late")
+  one_place(function(m) m:rate(function(c, d) d.axin = 1 end) end, "axin")
+  one_place(function(m) m:rate(function(c, d) d.auxin = tunica.hill(c.auxin, {}) end) end, "hill")
+  one_place(function(m) m:flux("axin", function(w, a, b) return a.auxin - b.auxin end) end, "axin")
+  one_place(function(m) m:flux("auxin", function(w, a, b) return a.auxin end) end, "opposite sign")
+  one_place(function(m) m:derive(function(c) c.e = 2 * tunica.exp(c.e) end) end, "refers to itself")
+  one_place(function(m) m:rate(function(c, d) if c.id < 2 then d.auxin = 1 else d.e = 1 end end) end, "the same columns")
+  one_place(function(m)
+    m:derive(function(c) c.e = 1 end)
+    m:rate(function(c, d) d.e = 1 end)
+  end, "derived")
+end
