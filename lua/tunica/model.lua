@@ -240,7 +240,7 @@ local function build(my)
 end
 
 local function verify(my, set, machine)
-  core.derive(machine, values_of(my))
+  core.derive(machine, values_of(my), false)
   local time = core.machine_time(machine)
   for _, r in ipairs(my.rules) do
     local difference = r.index and rules.compare(set, r.index, r, my.tissue, values_of(my), time)
@@ -289,7 +289,7 @@ local function prepare(my)
   end
   my.stale = true
   with_rules(my, bind)
-  my.held, my.stale = held, false
+  my.held, my.stale, my.bound_anew = held, false, true
 end
 
 --- What a rule decides by may change with the state: after the 1st, 2nd, 4th, 8th ... and every 64th event traced rules are
@@ -305,9 +305,18 @@ local function verify_now_and_then(my)
   if not agree then with_rules(my, bind) end
 end
 
+--- Calls what takes the machine on; what stops it is kept for the record.
+local function with_machine(my, f, ...)
+  local ok, result = pcall(f, my.machine, ...)
+  if ok then return result end
+  my.failure = core.failure(my.machine)
+  error(result, 0)
+end
+
+--- Brings the derived columns up to date for those who look at them: events, conditions, reports, pictures.
 local function refresh_derived(my)
   for _, r in ipairs(my.rules) do
-    if r.what == "derive" then core.derive(my.machine, values_of(my)) return end
+    if r.what == "derive" then return with_machine(my, core.derive, values_of(my), true) end
   end
 end
 
@@ -357,12 +366,7 @@ end
 local function step_towards(my, target, pause, deadline)
   if #my.conditions > 0 then pause = -1e300 end
   local seconds = deadline and math.max(0, deadline - core.now())
-  local ok, status = pcall(core.advance, my.machine, values_of(my), target, pause, seconds)
-  if not ok then
-    my.failure = core.failure(my.machine)
-    error(status, 0)
-  end
-  return status
+  return with_machine(my, core.advance, values_of(my), target, pause, seconds)
 end
 
 --- See the operation below.
@@ -370,6 +374,8 @@ local function advance(model, o)
   local my = inside[model]
   prepare(my)
   my.failure = nil
+  if my.bound_anew then refresh_derived(my) end  -- binding does not judge the values
+  my.bound_anew = false
   local deadline = o.seconds and core.now() + o.seconds
   local slack, stepped = 1e-9 * my.dt, false
   while true do

@@ -129,17 +129,21 @@ int failure(lua_State* L) {
   });
 }
 
-/// derive(machine, parameters): writes the derived columns for the state the tissue holds.
+/// derive(machine, parameters, checked): writes the derived columns for the state the tissue holds. Errors: as of
+/// advance, if they are to be checked and one is not finite.
 int derive(lua_State* L) {
   return guard(L, [&] {
     Machine& m = object_at<Machine>(L, 1);
     const Entering entering(L);
-    m.system->prepare(parameter_values(L, 2, m.system->equations()));
-    AlignedBuffer y;
-    y.resize(m.system->state_size());
-    m.system->read_state(y.data());
+    const std::vector<double> parameters = parameter_values(L, 2, m.system->equations());
     const Locked locked(m.system->tissue());
-    m.system->derive(m.integrator->time(), y.data());
+    m.failure.reset();
+    try {
+      m.integrator->derive(parameters, lua_toboolean(L, 3));
+    } catch (const StepFailed& failed) {
+      m.failure = failed.failure;
+      throw;
+    }
     return 0;
   });
 }

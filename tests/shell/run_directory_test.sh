@@ -35,6 +35,18 @@ code 1 "$tunica" --json -e 'error "early"'; [ "$(field out.txt message)" != nil 
 # Failures name what and where, and keep the last good state.
 code 3 "$tunica" "$fake" nan_at=3 --out nan; says err.txt "auxin of cell 3 is nan"; says err.txt "nan/checkpoint.bin"
 [ "$(field nan/run.json failures.1.column)" = auxin ] || wrong "run.json of a failure"
+cat >ratio.lua <<'LUA'
+local tunica = require "tunica"
+local tissue = tunica.ring { 20 }
+tissue:cell { auxin = 1, ratio = 0 }
+local model = tunica.model { tissue = tissue, dt = 0.1, stop = 10 }
+model:rate(function(c, d) d.auxin = 1 end)
+model:derive(function(c, t) c.ratio = math.sqrt(5.5 - t) end)
+model:report { every = 1, ratio = function() return tissue:max "ratio" end }
+return model
+LUA
+code 3 "$tunica" ratio.lua --out ratio; says err.txt "ratio became"; says err.txt "in cell 1 at time 6"
+[ "$(field ratio/run.json failures.1.column)" = ratio ] || wrong "run.json of a failure in a derived column"
 code 1 "$tunica" "$fake" error_at=3 --out mistake; says err.txt "fake_model.lua:25"
 [ "$(field mistake/run.json status)" = failed ] || wrong "status of a failure"
 
