@@ -173,8 +173,9 @@ end
 local function new_directory(self)
   local options = self.options
   return directory.make(options.out, self.name, function(folder)
+    directory.lock(folder)
     self.script = directory.save_sources(folder, options.script)
-        local main = self.script.main
+    local main = self.script.main
     self.script = { path = self.old and self.old.script.path or main.path, copy = main.copy, hash = main.hash, modules = self.script.modules }
     record.write(self, folder)
   end)
@@ -197,6 +198,11 @@ end
 function run.begin(model, options)
   local self = { model = model, options = options, name = options.name, status = "running", failures = core.as_list {}, warnings = {},
     work = 0, wall = 0, started = core.now(), date = core.date(), next_shadow = 0, result = {} }
+  if options.resume then
+    local went, free, why = pcall(directory.lock, options.resume)
+    if not went then return refuse(self, exit.files, "%s", tostring(free)) end
+    if not free then return refuse(self, exit.usage, "%s", why) end
+  end
   local recorded = options.resume or options.rerun
   if recorded then take_over(self, recorded) end
   if options.frames == nil then options.frames = true end
