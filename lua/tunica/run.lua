@@ -5,6 +5,7 @@
 local core = require "tunica.core"
 local params = require "tunica.params"
 local directory = require "tunica.run.directory"
+local git = require "tunica.run.git"
 local outputs = require "tunica.run.outputs"
 local progress = require "tunica.run.progress"
 local record = require "tunica.run.record"
@@ -156,7 +157,7 @@ local function take_over(self, folder)
   options.until_time = options.until_time or old.options.until_time
   if options.frames == nil then options.frames = old.options.frames end
   options.movie = options.movie or old.options.movie
-  self.old = old
+  self.old, self.git = old, old.git
 end
 
 --- A field that a model may lack.
@@ -206,6 +207,7 @@ function run.begin(model, options)
   local recorded = options.resume or options.rerun
   if recorded then take_over(self, recorded) end
   if options.frames == nil then options.frames = true end
+  if not recorded then self.git = git.revision(options.script) end
   self.goal = options.until_time or optional(model, "stop")
   if type(self.goal) ~= "number" then
     return refuse(self, exit.usage, "when does the run end? Say --until T, or stop = T in tunica.model { ... }")
