@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lua/symbol.h"
 
+#include <atomic>
 #include <cstring>
 
 #include "lua/bind_tissue.h"
@@ -15,11 +16,15 @@ using View = Tracer::View;
 
 struct Symbol {
   enum class Type : uint8_t { value, cell, wall, side, rates } type;
-  View view;      // of a cell
-  bool mirrored;  // a side seen from across
-  NodeId node;    // of a value
-  int frame;      // 0: scalar
+  View view;       // of a cell
+  bool mirrored;   // a side seen from across
+  NodeId node;     // of a value
+  int frame;       // 0: scalar
+  uint64_t trace;  // of the rule that it was made in; kept longer, it means nothing
 };
+
+constexpr const char* kept_too_long =
+    "a symbol of a rule is used outside its rule; rules may only compute, not keep what they were given";
 
 Symbol* symbol_at(lua_State* L, int at) {
   if (lua_type(L, at) != LUA_TUSERDATA || !lua_getmetatable(L, at)) return nullptr;
@@ -32,7 +37,7 @@ Symbol* symbol_at(lua_State* L, int at) {
 Symbol* push(lua_State* L, Symbol::Type type, int frame, View view = View::here, bool mirrored = false,
              NodeId node = no_node) {
   auto* s = static_cast<Symbol*>(lua_newuserdata(L, sizeof(Symbol)));
-  *s = {type, view, mirrored, node, frame};
+  *s = {type, view, mirrored, node, frame, active_tracer(L)->trace};
   luaL_getmetatable(L, metatable);
   lua_setmetatable(L, -2);
   return s;
@@ -40,9 +45,12 @@ Symbol* push(lua_State* L, Symbol::Type type, int frame, View view = View::here,
 
 Tracer& tracer(lua_State* L) {
   Tracer* active = active_tracer(L);
-  if (!active)
-    fail("a symbol of a rule is used outside its rule; rules may only compute, not keep what they were given");
+  if (!active) fail("{}", kept_too_long);
   return *active;
+}
+
+void check_trace(const Tracer& t, const Symbol& s) {
+  if (s.trace != t.trace) fail("{}", kept_too_long);
 }
 
 void push_value(lua_State* L, Tracer& t, NodeId node) {
@@ -52,6 +60,7 @@ void push_value(lua_State* L, Tracer& t, NodeId node) {
 }
 
 void check_frame(const Tracer& t, const Symbol& s) {
+  check_trace(t, s);
   if (s.frame == 0 || s.frame == t.context.cell_frame || s.frame == t.context.body_frame) return;
   fail("a sum within a sum uses a value of the outer one, which cannot be traced");
 }
@@ -201,6 +210,7 @@ int index(lua_State* L) {
   return guard(L, [&] {
     Tracer& t = tracer(L);
     const Symbol s = *symbol_at(L, 1);
+    check_trace(t, s);
     if (s.type != Symbol::Type::value) check_frame(t, s);
     const std::string name = check_string(L, 2, "a column's name");
     if (s.type != Symbol::Type::rates && t.sums == 0 && is_subject(t, s))
@@ -230,6 +240,7 @@ int assign(lua_State* L) {
     Tracer& t = tracer(L);
     const Symbol s = *symbol_at(L, 1);
     const std::string name = check_string(L, 2, "a column's name");
+    check_trace(t, s);
     if (!is_subject(t, s))
       t.forbid(L,
                fmt::format("'{:.60}' cannot be set here: a derive rule sets columns of the element it is given, a rate "
@@ -346,6 +357,8 @@ void Tracer::forbid(lua_State* L, const std::string& message) {
 }
 
 void Tracer::begin(Kind of, bool derives) {
+  static std::atomic<uint64_t> traces{0};
+  trace = ++traces;
   context = {++frames, ++frames};
   written.clear();
   fault.clear();

@@ -44,6 +44,7 @@ class Tracer {
   };
   Context context{0, 0};
   int frames = 0;
+  uint64_t trace = 0;  ///< the rule's call with symbols that is under way: another number for each in this process
   bool deriving = false;
   Kind subject = Kind::cell;  ///< what the rule is for
   int sums = 0;               ///< that are being traced, one inside another

@@ -139,6 +139,26 @@ for _, as_it_is in ipairs { false, true } do
   end, "number", "nil")
 end
 
+-- What a rule kept of its symbols is of no use to another call, of this model or another.
+do
+  local kept
+  for round = 1, 3 do
+    local tissue = sheet()
+    local model = tunica.model { tissue = tissue, dt = 0.1 }
+    model:rate(function(c, d, t)
+      local before, x = kept, t
+      for _ = 1, round < 2 and 200 or 1 do x = x + tunica.tanh(x) end
+      if type(x) == "userdata" and not before then kept = { t = t, x = x, c = c, d = d } end
+      d.auxin = before and before[({ "t", "x", "c", "d" })[round]] or 1
+    end)
+    local ok, message = pcall(model.advance, model, { to = 0.1 })
+    assert(ok and round == 1 or message:find("symbol", 1, true), message)
+  end
+  check.fails(function() return kept.x + 1 end, "symbol")
+  check.fails(function() return kept.c.auxin end, "symbol")
+  check.fails(function() kept.d.auxin = 1 end, "symbol")
+end
+
 -- Own columns may be set anywhere in the rule.
 do
   local tissue = sheet()
