@@ -128,7 +128,7 @@ local most_in_a_step = 1000
 
 op { name = "model:every", changes = true, fn = function(model, interval, fn)
     local dt = inside[model].dt
-    if interval < dt / most_in_a_step then
+    if dt < math.huge and interval < dt / most_in_a_step then
       fail("model:every: the interval %.6g is far below the model's step dt = %.6g: more than %d events in a step", interval, dt,
         most_in_a_step)
     end
