@@ -73,7 +73,8 @@ op { name = "tunica.model", kind = "named", returns = "a model",
     end
     local model = setmetatable({}, meta)
     inside[model] = { tissue = o.tissue, params = o.params or params.current(), dt = o.dt, method = o.method, threads = o.threads,
-      signed = o.signed, stop = o.stop, rules = {}, events = {}, conditions = {}, views = {}, reports = {}, saved_time = 0, stale = true, warnings = {} }
+      signed = o.signed, stop = o.stop, rules = {}, events = {}, conditions = {}, views = {}, reports = {}, saved_time = 0, stale = true, warnings = {},
+      where = registry.where() }
     return model
   end }
 
@@ -84,10 +85,15 @@ local kinds = { "cell", "side", "wall" }
 local function add_rule(what)
   return function(model, kind_or_fn, fn)
     local kind = "cell"
-    if type(kind_or_fn) == "string" then kind = kind_or_fn elseif fn == nil then fn = kind_or_fn end
+    if type(kind_or_fn) == "string" then
+      kind = kind_or_fn
+    else
+      if fn ~= nil then fail("model:%s takes one rule at a time, came two functions; call it once for each", what) end
+      fn = kind_or_fn
+    end
     if type(fn) ~= "function" then fail("model:%s: a rule must be a function, came %s", what, core.describe(fn)) end
     local my = inside[model]
-    my.rules[#my.rules + 1] = { what = what, kind = kind, fn = fn, where = core.where():gsub(":%s*$", "") }
+    my.rules[#my.rules + 1] = { what = what, kind = kind, fn = fn, where = registry.where() }
     my.stale = true
   end
 end
@@ -96,20 +102,20 @@ local element = { name = "element", type = "string|function", choices = kinds, r
   doc = "the rule for cells; or 'cell', 'side' or 'wall', and then the rule" }
 local rule = { name = "rule", type = "function", doc = "the rule, if an element was named" }
 
-op { name = "model:derive", args = { element, rule }, fn = add_rule "derive",
+op { name = "model:derive", changes = true, args = { element, rule }, fn = add_rule "derive",
   doc = "Columns that follow from others at every moment: function(c, t) c.x = ... end; for sides function(s, t), for walls function(w, a, b, t).",
   example = diffusion .. "model:derive(function(c) c.twice = 2 * c.auxin end)" }
-op { name = "model:rate", args = { element, rule }, fn = add_rule "rate", source = "thesis 9.1",
+op { name = "model:rate", changes = true, args = { element, rule }, fn = add_rule "rate", source = "thesis 9.1",
   doc = "Rates of change: function(c, d, t) d.x = ... end; for sides function(s, d, t), for walls function(w, d, a, b, t). Rates of several rules are added.",
   example = diffusion }
-op { name = "model:flux", returns = nil, source = "thesis 5.9",
+op { name = "model:flux", changes = true, returns = nil, source = "thesis 5.9",
   args = { { name = "column", type = "string", required = true, doc = "the concentration that is carried" },
     { name = "flux", type = "function", required = true, doc = "function(w, a, b, t): amount per time through wall w from cell a to cell b" } },
   doc = "Transport through walls: what leaves a arrives in b. The concentration changes by the amount divided by the cell's area (by the amount itself in a tissue without geometry).",
   example = header .. [[model:flux("auxin", function(w, a, b) return a.auxin - b.auxin end)]],
   fn = function(model, column, fn)
     local my = inside[model]
-    my.rules[#my.rules + 1] = { what = "flux", kind = "wall", column = column, fn = fn, where = core.where():gsub(":%s*$", "") }
+    my.rules[#my.rules + 1] = { what = "flux", kind = "wall", column = column, fn = fn, where = registry.where() }
     my.stale = true
   end }
 
@@ -117,7 +123,15 @@ op { name = "model:flux", returns = nil, source = "thesis 5.9",
 
 local function event(kind, time, fn) return { kind = kind, time = time, fn = fn, fired = 0 } end
 
-op { name = "model:every", fn = function(model, interval, fn)
+-- So many events in one step are a mistake in a unit; far shorter intervals would fire for ever and not move the time.
+local most_in_a_step = 1000
+
+op { name = "model:every", changes = true, fn = function(model, interval, fn)
+    local dt = inside[model].dt
+    if dt < math.huge and interval < dt / most_in_a_step then
+      fail("model:every: the interval %.6g is far below the model's step dt = %.6g: more than %d events in a step", interval, dt,
+        most_in_a_step)
+    end
     local e = event("every", interval, fn)
     e.fired = math.floor(model.time / interval + 1e-9)  -- those before now are past
     table.insert(inside[model].events, e)
@@ -125,11 +139,11 @@ op { name = "model:every", fn = function(model, interval, fn)
   args = { { name = "interval", type = "number", above = 0, required = true, unit = "time", doc = "first after one interval" },
     { name = "event", type = "function", required = true, doc = "function(t)" } },
   doc = "Something that happens at regular times: growth, division.", example = diffusion .. "model:every(1, function(t) print(t) end)" }
-op { name = "model:at", fn = function(model, time, fn) table.insert(inside[model].events, event("at", time, fn)) end,
+op { name = "model:at", changes = true, fn = function(model, time, fn) table.insert(inside[model].events, event("at", time, fn)) end,
   args = { { name = "time", type = "number", min = 0, required = true, unit = "time", doc = "when" },
     { name = "event", type = "function", required = true, doc = "function(t)" } },
   doc = "Something that happens once.", example = diffusion .. "model:at(2, function() print 'now' end)" }
-op { name = "model:when",
+op { name = "model:when", changes = true,
   args = { { name = "condition", type = "function", required = true, doc = "function(t): true or false; asked after each step" },
     { name = "event", type = "function", required = true, doc = "function(t)" } },
   doc = "Something that happens each time a condition becomes true.",
@@ -138,7 +152,7 @@ op { name = "model:when",
 
 -- Views and report -------------------------------------------------------------------------------------------------------
 
-op { name = "model:report", kind = "named", rest = { type = "function" },
+op { name = "model:report", changes = true, kind = "named", rest = { type = "function" },
   args = { { name = "every", type = "number", above = 0, unit = "time", doc = "interval of the time series; without it there is none" } },
   doc = "What the model says at its end, by name: functions that return a number, text or a table. With `every` also as a time series.",
   example = diffusion .. "model:report { every = 1, most = function() return tissue:max 'auxin' end }",
@@ -169,8 +183,12 @@ local function held_values(my)
 end
 
 local function untraced_warning(my, r, reason)
-  my.warnings[#my.warnings + 1] = string.format("%s: this %s rule is run by the interpreter, some hundred times slower: %s", r.where, r.what, reason)
-  io.stderr:write("tunica: ", my.warnings[#my.warnings], "\n")
+  local text = string.format("%s: this %s rule is run by the interpreter, some hundred times slower: %s", r.where, r.what, reason)
+  for _, said in ipairs(my.warnings) do
+    if said == text then return end  -- when the rules were bound before
+  end
+  my.warnings[#my.warnings + 1] = text
+  io.stderr:write("tunica: ", text, "\n")
 end
 
 --- Derived columns first, then what changes: a rate may be written before the columns it reads.
@@ -182,6 +200,21 @@ local function in_order(list)
     end
   end
   return ordered
+end
+
+--- A name in `signed` that no rule changes would be without effect: most likely it is misspelt.
+local function check_signed(my, machine)
+  local names, known = core.machine_state(machine), {}
+  for _, name in ipairs(names) do known[name] = true end
+  for _, r in ipairs(my.rules) do
+    if r.direct and r.waits then return end  -- it may be one of the columns that are not known yet
+  end
+  for _, name in ipairs(my.signed) do
+    if not known[name] then
+      registry.fail_at(my.where, "tunica.model: 'signed' names '%s', but no rate or flux changes a column of this name%s", name,
+        core.did_you_mean(name, names))
+    end
+  end
 end
 
 --- Traces what can be traced; rules named in `direct` run as they are.
@@ -201,11 +234,13 @@ local function build(my)
       r.index = index
     end
   end
-  return set, core.machine(set, my.method, my.dt, my.threads, my.signed)
+  local machine = core.machine(set, my.method, my.dt, my.threads, my.signed)
+  check_signed(my, machine)
+  return set, machine
 end
 
 local function verify(my, set, machine)
-  core.derive(machine, values_of(my))
+  core.derive(machine, values_of(my), false)
   local time = core.machine_time(machine)
   for _, r in ipairs(my.rules) do
     local difference = r.index and rules.compare(set, r.index, r, my.tissue, values_of(my), time)
@@ -237,16 +272,24 @@ local function with_rules(my, work)
   if not ok then error(message, 0) end
 end
 
+--- Whether a rule waits for the first wall (side) to set anything in, and there is one now.
+local function can_know_more(my)
+  for _, r in ipairs(my.rules) do
+    if r.direct and rules.can_know(r, my.tissue) then return true end
+  end
+  return false
+end
+
 local function prepare(my)
   if my.busy then fail("a model cannot be run, saved or looked into from inside its own rules") end
-  local held = held_values(my)
-  if not my.stale and held == my.held then return end
-  if my.held and held ~= my.held then
+  local held, more = held_values(my), can_know_more(my)
+  if not my.stale and not more and held == my.held then return end
+  if more or my.held and held ~= my.held then
     for _, r in ipairs(my.rules) do r.direct = nil end
   end
   my.stale = true
   with_rules(my, bind)
-  my.held, my.stale = held, false
+  my.held, my.stale, my.bound_anew = held, false, true
 end
 
 --- What a rule decides by may change with the state: after the 1st, 2nd, 4th, 8th ... and every 64th event traced rules are
@@ -262,9 +305,18 @@ local function verify_now_and_then(my)
   if not agree then with_rules(my, bind) end
 end
 
+--- Calls what takes the machine on; what stops it is kept for the record.
+local function with_machine(my, f, ...)
+  local ok, result = pcall(f, my.machine, ...)
+  if ok then return result end
+  my.failure = core.failure(my.machine)
+  error(result, 0)
+end
+
+--- Brings the derived columns up to date for those who look at them: events, conditions, reports, pictures.
 local function refresh_derived(my)
   for _, r in ipairs(my.rules) do
-    if r.what == "derive" then core.derive(my.machine, values_of(my)) return end
+    if r.what == "derive" then return with_machine(my, core.derive, values_of(my), true) end
   end
 end
 
@@ -314,12 +366,7 @@ end
 local function step_towards(my, target, pause, deadline)
   if #my.conditions > 0 then pause = -1e300 end
   local seconds = deadline and math.max(0, deadline - core.now())
-  local ok, status = pcall(core.advance, my.machine, values_of(my), target, pause, seconds)
-  if not ok then
-    my.failure = core.failure(my.machine)
-    error(status, 0)
-  end
-  return status
+  return with_machine(my, core.advance, values_of(my), target, pause, seconds)
 end
 
 --- See the operation below.
@@ -327,6 +374,8 @@ local function advance(model, o)
   local my = inside[model]
   prepare(my)
   my.failure = nil
+  if my.bound_anew then refresh_derived(my) end  -- binding does not judge the values
+  my.bound_anew = false
   local deadline = o.seconds and core.now() + o.seconds
   local slack, stepped = 1e-9 * my.dt, false
   while true do
@@ -341,6 +390,7 @@ local function advance(model, o)
     stepped = true
     if status == "interrupted" then return status end
     test_conditions(my, model.time)
+    if can_know_more(my) then prepare(my) end
     if status == "out of time" then return status end
     if deadline and core.now() >= deadline and model.time < o.to - slack then
       return "out of time"
@@ -394,7 +444,7 @@ op { name = "model:snapshot", returns = "text", example = diffusion .. "print(#m
         upvalues = plain.upvalues(functions_of(my)), globals = plain.globals() } }
   end }
 
-op { name = "model:restore", args = { { name = "snapshot", type = "string", required = true, doc = "what model:snapshot() gave" } },
+op { name = "model:restore", changes = true, args = { { name = "snapshot", type = "string", required = true, doc = "what model:snapshot() gave" } },
   doc = "Goes back to a snapshot of the same script.", example = diffusion .. "local s = model:snapshot() model:advance(1) model:restore(s) print(model.time)",
   fn = function(model, bytes)
     local my = inside[model]

@@ -91,6 +91,7 @@ end
 function meta.__newindex(P, name, value)
   local my = inside[P]
   if my.values[name] == nil then unknown(P, name) end
+  if core.in_rule() then fail("parameter '%s' cannot be set in a rule; rules only compute", name) end
   local wrong = complaint(my.declared[name], value)
   if wrong then fail("parameter '%s': %s", name, wrong) end
   my.values[name] = value

@@ -3,6 +3,7 @@
 -- reference page and the fuzz test.
 --
 --   op { name = "tissue:divide",      -- "owner:method", "owner.property" or "tunica.function"
+--        changes = true,              -- what rules read or are part of: rules cannot call it
 --        kind = "named",              -- "positional" (default), "named" (one table of options) or "property"
 --        args = { { name = "above", type = "number", above = 0, unit = "area", doc = "..." }, ... },
 --        rest = { type = "any" },     -- named only: other keys are allowed, with values of this type (columns)
@@ -20,13 +21,22 @@ local core = require "tunica.core"
 local registry = {}
 local entries, by_name = {}, {}
 
---- Raises an error that points at the innermost line of the user's own code.
-local function fail(format, ...)
+local function raise(where, format, ...)
   local text = select("#", ...) > 0 and string.format(format, ...) or format
   if #text > 1000 then text = text:sub(1, 1000) .. " ..." end  -- a value quoted in it was long
-  error(core.where() .. text, 0)
+  error(where .. text, 0)
 end
+
+--- Raises an error that points at the innermost line of the user's own code.
+local function fail(format, ...) raise(core.where(), format, ...) end
 registry.fail = fail
+
+--- Raises an error that points at a place noted before (registry.where): of the rule that is wrong, not of the call that
+-- found it out.
+function registry.fail_at(where, format, ...) raise(where == "" and "" or where .. ": ", format, ...) end
+
+--- The innermost line of the user's own code, as "file:line".
+function registry.where() return (core.where():gsub(":%s*$", "")) end
 
 -- Types ------------------------------------------------------------------------------------------------------------
 
@@ -243,6 +253,7 @@ local function make_function(entry)
     if registry.tracing then
       fail("%s gives what holds at one moment, so a rule that calls it cannot be traced", entry.name)
     end
+    if entry.changes and core.in_rule() then fail("%s: a rule cannot call it; rules only compute", entry.name) end
     if not is(self) then
       fail("%s: write it with a colon, behind a %s; before the colon came %s", entry.name, entry.owner, core.describe(self))
     end

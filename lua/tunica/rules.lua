@@ -41,7 +41,14 @@ declare("clamp", "clamp(5, 0, 1)", { x, { name = "low", type = "any", required =
 declare("step", "step(2)", { x }, "1 where x >= 0, else 0.", function(v) return f.at_most(0, v) end)
 declare("hill", "hill(2, 1, 4)", { x, { name = "half", type = "any", required = true, doc = "x at which the value is 1/2" },
   { name = "n", type = "any", default = 2, doc = "steepness" } }, "Saturation x^n / (half^n + x^n), for x >= 0.",
-  function(v, half, n) return v ^ n / (half ^ n + v ^ n) end)
+  function(v, half, n)
+    for _, value in ipairs { v, half, n } do
+      if type(value) ~= "number" and type(value) ~= "userdata" then
+        registry.fail("tunica.hill takes numbers or values of a rule, came %s", core.describe(value))
+      end
+    end
+    return v ^ n / (half ^ n + v ^ n)
+  end)
 
 local more = { x }
 for i = 2, 8 do more[i] = { name = "x" .. i, type = "any", doc = "another" } end
@@ -74,6 +81,9 @@ local function over_neighbours(cell, fn, join)
     local opposite = side.opposite
     if opposite then
       local value = fn(opposite.cell, side.wall, side, opposite)
+      if type(value) ~= "number" then
+        registry.fail("the function to go over the neighbours must return a number, it returned %s", core.describe(value))
+      end
       total = total and join(total, value) or value
     end
   end
@@ -143,6 +153,15 @@ end
 
 -- Running rules as they are ----------------------------------------------------------------------------------------------
 
+--- Keeps in `written` what a rule sets for an element.
+local function keeper(element, written)
+  return function(_, name, value)
+    core.check_settable(element, name)
+    if type(value) ~= "number" then registry.fail("a rule must set '%s' to a number, came %s", name, core.describe(value)) end
+    written[name] = value
+  end
+end
+
 --- Stands for an element in a rule: reads go to the element, what is set is kept in `written`.
 local function recorder(element, written)
   return setmetatable({}, {
@@ -152,8 +171,13 @@ local function recorder(element, written)
       if type(value) ~= "function" then return value end
       return function(_, ...) return value(element, ...) end
     end,
-    __newindex = function(_, name, value) written[name] = value end,
+    __newindex = keeper(element, written),
   })
+end
+
+--- The rates that a rule sets.
+local function rates_of(element, written)
+  return setmetatable({}, { __index = written, __newindex = keeper(element, written) })
 end
 
 local function inner_elements(tissue, kind)
@@ -167,36 +191,47 @@ end
 
 local function call_rule(rule, element, target, time)
   if rule.what == "derive" then
-    if rule.kind ~= "wall" then return rule.fn(target, time) end
+    if rule.kind ~= "wall" then return core.call_rule(rule.fn, target, time) end
     local a, b = element:cells()
-    return rule.fn(target, a, b, time)
-  elseif rule.what == "rate" then
-    if rule.kind ~= "wall" then return rule.fn(element, target, time) end
-    local a, b = element:cells()
-    return rule.fn(element, target, a, b, time)
+    return core.call_rule(rule.fn, target, a, b, time)
   end
+  if rule.kind ~= "wall" then return core.call_rule(rule.fn, element, target, time) end
   local a, b = element:cells()
-  return rule.fn(element, a, b, time)
+  return core.call_rule(rule.fn, element, target, a, b, time)
+end
+
+local function flux_through(rule, wall, a, b, time)
+  local flux = core.call_rule(rule.fn, wall, a, b, time)
+  if type(flux) ~= "number" then
+    registry.fail_at(rule.where, "the flux of '%s' must be a number, the function returned %s", rule.column, core.describe(flux))
+  end
+  return flux
 end
 
 --- What a rule sets at one element, evaluated directly: a table of columns, or the flux under its column.
 function rules.evaluate(rule, element, time)
-  local written = {}
-  local target = rule.what == "derive" and recorder(element, written) or written
-  local value = call_rule(rule, element, target, time)
-  if rule.what == "flux" then written[rule.column] = value end
-  for name, number in pairs(written) do
-    if type(number) ~= "number" then
-      registry.fail("%s: the rule set '%s' to %s instead of a number", rule.where, name, core.describe(number))
-    end
+  if rule.what == "flux" then
+    local a, b = element:cells()
+    return { [rule.column] = flux_through(rule, element, a, b, time) }
   end
+  local written = {}
+  call_rule(rule, element, (rule.what == "derive" and recorder or rates_of)(element, written), time)
   return written
+end
+
+local function different_columns(rule, name, element)
+  registry.fail_at(rule.where, "the rule sets '%s' in %s but not in the first %s; set the same columns everywhere", name,
+    tostring(element), rule.kind)
 end
 
 local function derive_sweep(rule, tissue)
   return function(time)
+    if rule.waits then return end
     for _, element in ipairs(inner_elements(tissue, rule.kind)) do
-      for name, value in pairs(rules.evaluate(rule, element, time)) do element[name] = value end
+      for name, value in pairs(rules.evaluate(rule, element, time)) do
+        if not rule.known[name] then different_columns(rule, name, element) end
+        core.put(element, name, value)
+      end
     end
   end
 end
@@ -206,13 +241,11 @@ end
 local function rate_sweep(rule, tissue)
   return function(time)
     local rates = {}
+    if rule.waits then return rates end
     for _, name in ipairs(rule.columns) do rates[name] = {} end
     for _, element in ipairs(inner_elements(tissue, rule.kind)) do
       for name, value in pairs(rules.evaluate(rule, element, time)) do
-        if not rates[name] then
-          registry.fail("%s: the rule sets '%s' in %s but not in the first %s; set the same columns everywhere", rule.where, name,
-            tostring(element), rule.kind)
-        end
+        if not rates[name] then different_columns(rule, name, element) end
         rates[name][element.id] = value
       end
     end
@@ -234,19 +267,27 @@ local function flux_sweep(rule, tissue)
   end
 end
 
---- Adds a rule to `set` to be run directly: once per element and evaluation, by the interpreter.
+--- Adds a rule to `set` to be run directly: once per element and evaluation, by the interpreter. Its columns are those
+-- that it sets in the first element; while there is none (no wall in a tissue of one cell) they are not known.
 function rules.add_direct(set, rule, tissue)
   local first = inner_elements(tissue, rule.what == "flux" and "wall" or rule.kind)[1]
-  rule.columns = {}
+  rule.columns, rule.known = {}, {}
   if rule.what == "flux" then
     rule.columns[1] = rule.column
   elseif first then
-    for name in pairs(rules.evaluate(rule, first, 0)) do rule.columns[#rule.columns + 1] = name end
+    for name in pairs(rules.evaluate(rule, first, 0)) do
+      rule.columns[#rule.columns + 1], rule.known[name] = name, true
+    end
+    table.sort(rule.columns)
   end
+  rule.waits = rule.what ~= "flux" and first == nil
   local sweep = (rule.what == "derive" and derive_sweep or rule.what == "rate" and rate_sweep or flux_sweep)(rule, tissue)
   core.direct(set, rule.what == "derive" and "derive" or "rate", rule.what == "flux" and "cell" or rule.kind, sweep, rule.where,
     rule.columns)
 end
+
+--- Whether a rule whose columns were not known can find them out now.
+function rules.can_know(rule, tissue) return rule.waits and #inner_elements(tissue, rule.kind) > 0 end
 
 --- Some elements on which to compare a traced rule with direct evaluation: spread over the tissue, the border included.
 local function samples(tissue, kind)
@@ -276,11 +317,11 @@ function rules.compare(set, index, rule, tissue, values, time)
     end
     if rule.what == "flux" then
       local a, b = element:cells()
-      local there, back = rule.fn(element, a, b, time), rule.fn(element, b, a, time)
+      local there, back = flux_through(rule, element, a, b, time), flux_through(rule, element, b, a, time)
       local magnitude = traced[rule.column][2]
       if not (math.abs(there + back) <= 1e-9 * magnitude) and there == there then
-        registry.fail("%s: the flux from a to b is %.12g, but from b to a %.12g; it must be the same with opposite sign, since which cell is called a is arbitrary",
-          rule.where, there, back)
+        registry.fail_at(rule.where, "the flux from a to b is %.12g, but from b to a %.12g; it must be the same with opposite sign, since which cell is called a is arbitrary",
+          there, back)
       end
     end
   end

@@ -5,6 +5,7 @@
 local core = require "tunica.core"
 local params = require "tunica.params"
 local directory = require "tunica.run.directory"
+local git = require "tunica.run.git"
 local outputs = require "tunica.run.outputs"
 local progress = require "tunica.run.progress"
 local record = require "tunica.run.record"
@@ -156,7 +157,7 @@ local function take_over(self, folder)
   options.until_time = options.until_time or old.options.until_time
   if options.frames == nil then options.frames = old.options.frames end
   options.movie = options.movie or old.options.movie
-  self.old = old
+  self.old, self.git = old, old.git
 end
 
 --- A field that a model may lack.
@@ -173,8 +174,9 @@ end
 local function new_directory(self)
   local options = self.options
   return directory.make(options.out, self.name, function(folder)
+    directory.lock(folder)
     self.script = directory.save_sources(folder, options.script)
-        local main = self.script.main
+    local main = self.script.main
     self.script = { path = self.old and self.old.script.path or main.path, copy = main.copy, hash = main.hash, modules = self.script.modules }
     record.write(self, folder)
   end)
@@ -197,9 +199,15 @@ end
 function run.begin(model, options)
   local self = { model = model, options = options, name = options.name, status = "running", failures = core.as_list {}, warnings = {},
     work = 0, wall = 0, started = core.now(), date = core.date(), next_shadow = 0, result = {} }
+  if options.resume then
+    local went, free, why = pcall(directory.lock, options.resume)
+    if not went then return refuse(self, exit.files, "%s", tostring(free)) end
+    if not free then return refuse(self, exit.usage, "%s", why) end
+  end
   local recorded = options.resume or options.rerun
   if recorded then take_over(self, recorded) end
   if options.frames == nil then options.frames = true end
+  if not recorded then self.git = git.revision(options.script) end
   self.goal = options.until_time or optional(model, "stop")
   if type(self.goal) ~= "number" then
     return refuse(self, exit.usage, "when does the run end? Say --until T, or stop = T in tunica.model { ... }")

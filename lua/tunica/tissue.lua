@@ -81,7 +81,7 @@ local function declare(kind)
 end
 
 for _, kind in ipairs(kinds) do
-  op { name = "tissue:" .. kind, kind = "named", fn = declare(kind), returns = "the tissue",
+  op { name = "tissue:" .. kind, kind = "named", changes = true, fn = declare(kind), returns = "the tissue",
     rest = { type = "number|function|table", doc = "name of the column = initial value, or { value, divide = ... }" },
     doc = "Declares state that every " .. kind .. " has: name = value. The value is a number or a function of the " ..
       kind .. "; or { value, divide = what }, which says what the two parts get when the " .. kind .. " is divided: " ..

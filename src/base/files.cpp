@@ -2,6 +2,7 @@
 #include "base/files.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -106,6 +107,18 @@ void make_folders(const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
   if (error) fail("cannot make folder '{}': {}", path, error.message());
+}
+
+bool lock_file(const std::string& path) {
+  const int number = open_again(path.c_str(), O_RDWR | O_CREAT, 0666);
+  if (number < 0) fail("cannot open '{}': {}", path, std::strerror(errno));
+  if (::flock(number, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(number);
+    return false;
+  }
+  // The number is for messages only: a full disk does not matter. The descriptor stays open, it is what holds the lock.
+  if (::ftruncate(number, 0) == 0) write_all(number, fmt::format("{}\n", ::getpid()));
+  return true;
 }
 
 std::vector<std::string> list_folder(const std::string& path) {

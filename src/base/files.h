@@ -24,6 +24,11 @@ void sync_folder(const std::string& path);
 /// Makes a folder and those above it that are missing. Errors: say what the system refused.
 void make_folders(const std::string& path);
 
+/// Takes the lock of a file, which is made if missing, and writes the process's number into it. The lock is held until
+/// the process ends, however it ends. False: another holds it. A file system that knows no locks gives it to everyone.
+/// Errors: say what the system refused.
+bool lock_file(const std::string& path);
+
 /// Names in a folder, sorted by bytes, without "." and "..". Errors: not a readable folder.
 std::vector<std::string> list_folder(const std::string& path);
 

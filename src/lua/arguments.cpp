@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "lua/handle.h"
+#include "lua/symbol.h"
 
 namespace tunica::lua {
 
@@ -27,6 +28,7 @@ std::string describe(lua_State* L, int at) {
     case LUA_TUSERDATA:
       if (is_tissue(L, at)) return "a tissue";
       if (peek_handle(L, at, kind, id, tissue)) return fmt::format("{} {}", name_of(kind), id);
+      if (is_symbol(L, at)) return "a symbol of a rule";
       return "a value of another library";
     default:
       return std::string("a ") + lua_typename(L, lua_type(L, at));

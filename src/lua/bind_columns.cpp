@@ -102,6 +102,7 @@ int add_column(lua_State* L) {
     const Kind kind = check_kind(L, 2);
     Column column;
     column.name = check_string(L, 3, "the name of a column");
+    if (host(L).rules > 0) fail("a rule cannot declare columns");
     if (tissue.find_column(kind, column.name)) fail("a {} has '{}' already", name_of(kind), column.name);
     const bool by_function = lua_type(L, 4) == LUA_TFUNCTION;
     if (!by_function) column.initial = check_number(L, 4, "the initial value");
@@ -146,8 +147,8 @@ int reduce(lua_State* L) {
   });
 }
 
-/// random_number(handle or nil, "uniform" or "normal", a, b, purpose, draw): uniform in [a, b), or normal of mean a, deviation
-/// b. Keyed by the tissue's seed and the element, or by the run's seed: a pure function of its arguments.
+/// random_number(handle or nil, "uniform" or "normal", a, b, purpose, draw): uniform in [a, b), or normal of mean a,
+/// deviation b. Keyed by the tissue's seed and the element, or by the run's seed: a pure function of its arguments.
 int random_number(lua_State* L) {
   return guard(L, [&] {
     RandomKey key{.seed = host(L).seed};

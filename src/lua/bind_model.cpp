@@ -129,17 +129,21 @@ int failure(lua_State* L) {
   });
 }
 
-/// derive(machine, parameters): writes the derived columns for the state the tissue holds.
+/// derive(machine, parameters, checked): writes the derived columns for the state the tissue holds. Errors: as of
+/// advance, if they are to be checked and one is not finite.
 int derive(lua_State* L) {
   return guard(L, [&] {
     Machine& m = object_at<Machine>(L, 1);
     const Entering entering(L);
-    m.system->prepare(parameter_values(L, 2, m.system->equations()));
-    AlignedBuffer y;
-    y.resize(m.system->state_size());
-    m.system->read_state(y.data());
+    const std::vector<double> parameters = parameter_values(L, 2, m.system->equations());
     const Locked locked(m.system->tissue());
-    m.system->derive(m.integrator->time(), y.data());
+    m.failure.reset();
+    try {
+      m.integrator->derive(parameters, lua_toboolean(L, 3));
+    } catch (const StepFailed& failed) {
+      m.failure = failed.failure;
+      throw;
+    }
     return 0;
   });
 }
@@ -202,6 +206,20 @@ int cost(lua_State* L) {
     const Plan& plan = m.system->plan();
     lua_pushstring(L, plan.uses_wall_form ? "walls" : plan.uses_edges ? "half-edges" : "separated");
     return 3;
+  });
+}
+
+/// machine_state(machine) -> names of the columns that rates change
+int state(lua_State* L) {
+  return guard(L, [&] {
+    const Machine& m = object_at<Machine>(L, 1);
+    lua_newtable(L);
+    int count = 0;
+    for (const System::StateColumn& column : m.system->state()) {
+      lua_pushstring(L, column.name.c_str());
+      lua_rawseti(L, -2, ++count);
+    }
+    return 1;
   });
 }
 
@@ -336,6 +354,7 @@ void register_model(lua_State* L) {
                                 {"check_lowering", check_lowering},
                                 {"machine_time", time},
                                 {"machine_cost", cost},
+                                {"machine_state", state},
                                 {"machine_save", save},
                                 {"machine_load", load},
                                 {"tissue_save", tissue_save},

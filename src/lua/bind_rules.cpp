@@ -21,9 +21,9 @@ std::vector<double> parameter_values(lua_State* L, int at, const Equations& equa
 namespace {
 
 /// What makes a set of rules impossible, as opposed to a rule that cannot be traced.
-class Contradiction : public Error {
+class Contradiction : public Placed {
  public:
-  using Error::Error;
+  using Placed::Placed;
 };
 
 bool reads(const Graph& g, NodeId id, Op op, int slot, std::set<NodeId>& seen) {
@@ -43,9 +43,12 @@ int rules(lua_State* L) {
   });
 }
 
-int slot_of(Rules& r, Kind kind, const std::string& name) {
-  const Column& column = r.tissue->column(kind, name);
-  if (column.geometric) fail("'{}' is kept by the tissue; rules cannot change it", name);
+int slot_of(Rules& r, Kind kind, const std::string& name, const std::string& where) {
+  try {
+    if (r.tissue->column(kind, name).geometric) fail("'{}' is kept by the tissue; rules cannot change it", name);
+  } catch (const Error& error) {
+    throw Contradiction(fmt::format("{}: {}", where, error.what()));
+  }
   return r.equations->column_slot(kind, name);
 }
 
@@ -58,7 +61,7 @@ void keep_derived(Rules& r, Kind kind, const Assignments& written, const std::st
     NodeId value = node;
     if (kind != Kind::cell && e.graph[node].domain == Domain::cell) value = e.graph.own(node);
     if (!r.tissue->find_column(kind, name)) r.tissue->add_column(kind, {.name = name, .initial = 0});
-    const int slot = slot_of(r, kind, name);
+    const int slot = slot_of(r, kind, name, where);
     const Op leaf = kind == Kind::cell ? Op::cell_column : kind == Kind::wall ? Op::wall_column : Op::side_column;
     std::set<NodeId> seen;
     if (reads(e.graph, value, leaf, slot, seen))
@@ -82,7 +85,7 @@ void keep_rates(Rules& r, Kind kind, const Assignments& written, const std::stri
   for (const auto& [name, node] : written) {
     NodeId value = node;
     if (kind != Kind::cell && r.equations->graph[node].domain == Domain::cell) value = r.equations->graph.own(node);
-    const int slot = slot_of(r, kind, name);
+    const int slot = slot_of(r, kind, name, where);
     refuse_derived(r, kind, name, where);
     traced.targets.push_back({slot, value, where});
     r.equations->rates.push_back({slot, value, where});
@@ -91,13 +94,17 @@ void keep_rates(Rules& r, Kind kind, const Assignments& written, const std::stri
 
 void keep_flux(Rules& r, const std::string& name, NodeId node, const std::string& where, Rules::Traced& traced) {
   Graph& g = r.equations->graph;
-  const int slot = slot_of(r, Kind::cell, name);
+  const int slot = slot_of(r, Kind::cell, name, where);
   refuse_derived(r, Kind::cell, name, where);
   NodeId rate = g.unary(Op::neg, g.reduce(Op::flux_sum, node));
   if (r.tissue->has_geometry())
     rate = g.binary(Op::div, rate, g.column(Kind::cell, r.equations->column_slot(Kind::cell, "area")));
   traced.targets.push_back({slot, node, where});
   r.equations->rates.push_back({slot, rate, where});
+}
+
+void refuse_fault(const Tracer& tracer) {
+  if (!tracer.fault.empty()) throw Contradiction(tracer.fault);
 }
 
 /// trace(rules, what, kind, function, where, column) -> true, or false and the reason.
@@ -121,6 +128,7 @@ int trace(lua_State* L) {
         keep_rates(r, kind, r.tracer.trace_rate(L, kind), where, traced);
       else
         keep_flux(r, check_string(L, 6, "a column's name"), r.tracer.trace_flux(L).at(0).second, where, traced);
+      refuse_fault(r.tracer);
       r.traced.push_back(traced);
       lua_pushboolean(L, 1);
       return 1;
@@ -129,7 +137,9 @@ int trace(lua_State* L) {
     } catch (const ScriptError& error) {
       lua_settop(L, top);
       error.push(L);
+      refuse_fault(r.tracer);
     } catch (const Error& error) {
+      refuse_fault(r.tracer);
       lua_settop(L, top);
       lua_pushstring(L, error.what());
     }
@@ -183,7 +193,7 @@ int direct(lua_State* L) {
       lua_pop(L, 1);
       if (what == "derive" && !r.tissue->find_column(kind, names.back()))
         r.tissue->add_column(kind, {.name = names.back(), .initial = 0});
-      rule.columns.push_back(slot_of(r, kind, names.back()));
+      rule.columns.push_back(slot_of(r, kind, names.back(), rule.where));
       if (what == "derive") {
         r.tracer.derived.erase({kind, names.back()});
         r.derived.insert({kind, names.back()});
@@ -210,6 +220,45 @@ int direct(lua_State* L) {
     } else {
       e.direct_rates.push_back(std::move(rule));
     }
+    return 0;
+  });
+}
+
+/// call_rule(f, ...) -> what f returns; meanwhile nothing can be set that belongs to the tissue.
+int call_rule(lua_State* L) {
+  return guard(L, [&] {
+    check_function(L, 1, "a rule");
+    const InRule in_rule(L);
+    call(L, lua_gettop(L) - 1, LUA_MULTRET);
+    return lua_gettop(L);
+  });
+}
+
+/// in_rule(): whether a rule is being called, with symbols or as it is.
+int in_rule(lua_State* L) {
+  return guard(L, [&] {
+    lua_pushboolean(L, host(L).rules > 0 || active_tracer(L));
+    return 1;
+  });
+}
+
+/// check_settable(element, name). Errors: rules cannot set this of such an element.
+int check_settable(lua_State* L) {
+  return guard(L, [&] {
+    const Element element = check_element(L, 1);
+    require_settable(L, element.tissue, element.kind, check_string(L, 2, "a column's name"));
+    return 0;
+  });
+}
+
+/// put(element, column, number): sets what a rule derived; not finite ones are found where all derived columns are.
+int put(lua_State* L) {
+  return guard(L, [&] {
+    const Element element = check_element(L, 1);
+    Column& column = element.tissue.column(element.kind, check_string(L, 2, "a column's name"));
+    if (column.geometric) fail("'{}' is kept by the tissue; rules cannot change it", column.name);
+    if (lua_type(L, 3) != LUA_TNUMBER) fail("expected a number, got {}", describe(L, 3));
+    column.values[static_cast<size_t>(element.index)] = lua_tonumber(L, 3);
     return 0;
   });
 }
@@ -243,8 +292,11 @@ int reference(lua_State* L) {
 }  // namespace
 
 void register_rules(lua_State* L) {
-  const luaL_Reg functions[] = {
-      {"rules", rules}, {"trace", trace}, {"direct", direct}, {"reference", reference}, {nullptr, nullptr}};
+  const luaL_Reg functions[] = {{"rules", rules},     {"trace", trace},
+                                {"direct", direct},   {"call_rule", call_rule},
+                                {"in_rule", in_rule}, {"check_settable", check_settable},
+                                {"put", put},         {"reference", reference},
+                                {nullptr, nullptr}};
   add_functions(L, functions);
 }
 

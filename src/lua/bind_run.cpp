@@ -80,6 +80,14 @@ int rename_path(lua_State* L) {
   });
 }
 
+/// core.lock_file(path): whether this process has the lock of the file now, and until it ends.
+int lock(lua_State* L) {
+  return guard(L, [&] {
+    lua_pushboolean(L, lock_file(path_at(L, 1)));
+    return 1;
+  });
+}
+
 /// core.remove_all(path): a file, or a folder with all in it.
 int remove_all(lua_State* L) {
   return guard(L, [&] {
@@ -283,6 +291,7 @@ void register_run(lua_State* L) {
                                 {"mkdir", make_folder},
                                 {"list", list},
                                 {"rename", rename_path},
+                                {"lock_file", lock},
                                 {"remove_all", remove_all},
                                 {"kind_of", kind_of_path},
                                 {"absolute_path", absolute_path},

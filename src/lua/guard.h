@@ -25,6 +25,7 @@ struct Host {
   RandomStream random;
   const void* metatables[5] = {};  ///< of the handles (Kind) and of the tissue (last); see handle.h
   int tissues_made = 0;
+  int rules = 0;                ///< that are being called as they are, one inside another (see InRule)
   lua_State* active = nullptr;  ///< the thread that runs an operation which may call back into Lua (see Entering)
 };
 Host& host(lua_State* L);
@@ -39,6 +40,17 @@ class Entering {
  private:
   Host& host_;
   lua_State* before_;
+};
+
+/// While a rule of a model is called as it is: it may compute, and set nothing but what it is given to set.
+class InRule {
+ public:
+  explicit InRule(lua_State* L) : host_(host(L)) { ++host_.rules; }
+  ~InRule() { --host_.rules; }
+  InRule(const InRule&) = delete;
+
+ private:
+  Host& host_;
 };
 
 /// Pushes "file:line: " of the innermost frame in the user's own code (chunks named "=tunica/..." are the library's).
@@ -59,6 +71,12 @@ class ScriptError : public Error {
   int reference_;
 };
 
+/// An error that says itself where in the script it belongs, such as the place of a rule.
+class Placed : public Error {
+ public:
+  using Error::Error;
+};
+
 /// Calls the function below its `arguments` on the stack; a Lua error comes back as a ScriptError.
 void call(lua_State* L, int arguments, int results);
 
@@ -74,6 +92,8 @@ int guard(lua_State* L, Body&& body) {
     push_where(L);
     lua_pushstring(L, "out of memory");
     lua_concat(L, 2);
+  } catch (const Placed& error) {
+    push_message(L, error.what());
   } catch (const std::exception& error) {
     push_where(L);
     push_message(L, error.what());

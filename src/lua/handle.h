@@ -52,6 +52,9 @@ bool peek_handle(lua_State* L, int at, Kind& kind, Id& id, Tissue*& tissue);
 /// True for a tissue userdata.
 bool is_tissue(lua_State* L, int at);
 
+/// Errors: rules cannot set this of an element of this kind (a property, an operation, what follows from the geometry).
+void require_settable(lua_State* L, const Tissue& tissue, Kind kind, const std::string& name);
+
 /// Arguments of C functions; each throws Error naming what was expected and what came.
 double check_number(lua_State* L, int at, const char* what);
 /// Whole number within the limits.

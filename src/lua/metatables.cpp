@@ -63,13 +63,21 @@ int element_index(lua_State* L) {
   });
 }
 
+std::string not_its_own(const std::string& key, const char* noun) {
+  return fmt::format(
+      "a rule cannot set '{:.60}' of a {}: a derive rule sets columns of the element it is given, a rate rule those of "
+      "d",
+      key, noun);
+}
+
 int element_newindex(lua_State* L) {
   return guard(L, [&] {
     Handle* handle = handle_at(L, 1);
     if (!handle) fail("a field was set on {}", describe(L, 1));
-    if (active_tracer(L)) fail("a rule cannot set columns of one particular {}", name_of(handle->kind));
     const char* noun = name_of(handle->kind);
     const std::string key = key_at(L, 2, noun);
+    if (Tracer* tracer = active_tracer(L)) tracer->forbid(L, not_its_own(key, noun));
+    if (host(L).rules > 0) fail("{}", not_its_own(key, noun));
     Tissue& tissue = open_tissue(*handle->box);
     const Index index = resolve_or_fail(*handle, tissue);
     Column* column = tissue.find_column(handle->kind, key);
@@ -231,6 +239,25 @@ void make_metatable(lua_State* L, int type) {
 }
 
 }  // namespace
+
+void require_settable(lua_State* L, const Tissue& tissue, Kind kind, const std::string& name) {
+  const int top = lua_gettop(L);
+  lua_pushlightuserdata(L, const_cast<void*>(host(L).metatables[static_cast<int>(kind)]));
+  lua_rawget(L, LUA_REGISTRYINDEX);
+  lua_getfield(L, -1, "__index");
+  bool taken = false;
+  for (int upvalue = 1; upvalue <= 2; ++upvalue) {
+    lua_getupvalue(L, top + 2, upvalue);
+    lua_getfield(L, -1, name.c_str());
+    taken = taken || !lua_isnil(L, -1);
+  }
+  lua_settop(L, top);
+  if (taken)
+    fail("a rule cannot set '{}': it means something else for a {} already; choose another name", name, name_of(kind));
+  const Column* column = tissue.find_column(kind, name);
+  if (column && column->geometric)
+    fail("a rule cannot set '{}': it follows from the geometry of the {}", name, name_of(kind));
+}
 
 void register_handles(lua_State* L) {
   const int module = lua_gettop(L);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lua/symbol.h"
 
+#include <atomic>
 #include <cstring>
 
 #include "lua/bind_tissue.h"
@@ -15,11 +16,15 @@ using View = Tracer::View;
 
 struct Symbol {
   enum class Type : uint8_t { value, cell, wall, side, rates } type;
-  View view;      // of a cell
-  bool mirrored;  // a side seen from across
-  NodeId node;    // of a value
-  int frame;      // 0: scalar
+  View view;       // of a cell
+  bool mirrored;   // a side seen from across
+  NodeId node;     // of a value
+  int frame;       // 0: scalar
+  uint64_t trace;  // of the rule that it was made in; kept longer, it means nothing
 };
+
+constexpr const char* kept_too_long =
+    "a symbol of a rule is used outside its rule; rules may only compute, not keep what they were given";
 
 Symbol* symbol_at(lua_State* L, int at) {
   if (lua_type(L, at) != LUA_TUSERDATA || !lua_getmetatable(L, at)) return nullptr;
@@ -32,7 +37,7 @@ Symbol* symbol_at(lua_State* L, int at) {
 Symbol* push(lua_State* L, Symbol::Type type, int frame, View view = View::here, bool mirrored = false,
              NodeId node = no_node) {
   auto* s = static_cast<Symbol*>(lua_newuserdata(L, sizeof(Symbol)));
-  *s = {type, view, mirrored, node, frame};
+  *s = {type, view, mirrored, node, frame, active_tracer(L)->trace};
   luaL_getmetatable(L, metatable);
   lua_setmetatable(L, -2);
   return s;
@@ -40,9 +45,12 @@ Symbol* push(lua_State* L, Symbol::Type type, int frame, View view = View::here,
 
 Tracer& tracer(lua_State* L) {
   Tracer* active = active_tracer(L);
-  if (!active)
-    fail("a symbol of a rule is used outside its rule; rules may only compute, not keep what they were given");
+  if (!active) fail("{}", kept_too_long);
   return *active;
+}
+
+void check_trace(const Tracer& t, const Symbol& s) {
+  if (s.trace != t.trace) fail("{}", kept_too_long);
 }
 
 void push_value(lua_State* L, Tracer& t, NodeId node) {
@@ -52,6 +60,7 @@ void push_value(lua_State* L, Tracer& t, NodeId node) {
 }
 
 void check_frame(const Tracer& t, const Symbol& s) {
+  check_trace(t, s);
   if (s.frame == 0 || s.frame == t.context.cell_frame || s.frame == t.context.body_frame) return;
   fail("a sum within a sum uses a value of the outer one, which cannot be traced");
 }
@@ -132,7 +141,9 @@ int reduce(lua_State* L) {
     c->frame = t.context.cell_frame;
     c->view = View::here;
     NodeId body = no_node;
+    ++t.sums;
     const auto restore = [&] {
+      --t.sums;
       *c = before;
       t.context = outside;
     };
@@ -183,12 +194,28 @@ int index_side(lua_State* L, Tracer& t, const Symbol& s, const std::string& name
   return 1;
 }
 
+Symbol::Type type_of(Kind kind) {
+  return kind == Kind::cell ? Symbol::Type::cell : kind == Kind::side ? Symbol::Type::side : Symbol::Type::wall;
+}
+
+/// Whether the rule may set fields of this: `d`, or the element whose columns it derives.
+bool is_subject(const Tracer& t, const Symbol& s) {
+  if (s.type == Symbol::Type::rates) return true;
+  if (!t.deriving || s.type != type_of(t.subject) || s.view != View::here || s.mirrored) return false;
+  const int frame = s.type == Symbol::Type::cell ? t.context.cell_frame : t.context.body_frame;
+  return s.frame == frame && (t.sums == 0 || s.type == Symbol::Type::cell);
+}
+
 int index(lua_State* L) {
   return guard(L, [&] {
     Tracer& t = tracer(L);
     const Symbol s = *symbol_at(L, 1);
+    check_trace(t, s);
     if (s.type != Symbol::Type::value) check_frame(t, s);
     const std::string name = check_string(L, 2, "a column's name");
+    if (s.type != Symbol::Type::rates && t.sums == 0 && is_subject(t, s))
+      for (const auto& [column, node] : t.written)
+        if (column == name) return push_value(L, t, node), 1;
     switch (s.type) {
       case Symbol::Type::cell:
         return index_cell(L, t, s, name);
@@ -213,12 +240,18 @@ int assign(lua_State* L) {
     Tracer& t = tracer(L);
     const Symbol s = *symbol_at(L, 1);
     const std::string name = check_string(L, 2, "a column's name");
-    const bool subject = s.type == Symbol::Type::rates ||
-                         (t.deriving && s.type != Symbol::Type::value && s.view == View::here && !s.mirrored &&
-                          s.frame == (s.type == Symbol::Type::cell ? t.context.cell_frame : t.context.body_frame));
-    if (!subject)
-      fail("'{}' cannot be set here: a derive rule sets columns of its own {}, a rate rule those of d", name,
-           "element");
+    check_trace(t, s);
+    if (!is_subject(t, s))
+      t.forbid(L,
+               fmt::format("'{:.60}' cannot be set here: a derive rule sets columns of the element it is given, a rate "
+                           "rule those of d",
+                           name));
+    try {
+      require_settable(L, *t.tissue, t.subject, name);
+    } catch (const Error& error) {
+      t.forbid(L, error.what());
+    }
+    if (t.sums > 0) fail("'{}' is set inside a sum, which cannot be traced", name);
     const NodeId node = node_at(L, t, 3);
     for (auto& [column, old] : t.written)
       if (column == name) return old = node, 0;
@@ -314,11 +347,29 @@ NodeId Tracer::read(Kind kind, const std::string& name) {
   return equations->graph.column(kind, equations->column_slot(kind, name));
 }
 
-Assignments Tracer::trace_derive(lua_State* L, Kind kind) {
-  const Active active(L, this);
+void Tracer::forbid(lua_State* L, const std::string& message) {
+  if (fault.empty()) {
+    push_where(L);
+    fault = lua_tostring(L, -1) + message;
+    lua_pop(L, 1);
+  }
+  fail("{}", message);
+}
+
+void Tracer::begin(Kind of, bool derives) {
+  static std::atomic<uint64_t> traces{0};
+  trace = ++traces;
   context = {++frames, ++frames};
   written.clear();
-  deriving = true;
+  fault.clear();
+  subject = of;
+  deriving = derives;
+  sums = 0;
+}
+
+Assignments Tracer::trace_derive(lua_State* L, Kind kind) {
+  const Active active(L, this);
+  begin(kind, true);
   int arguments = 0;
   if (kind == Kind::cell) {
     push(L, Symbol::Type::cell, context.cell_frame), ++arguments;
@@ -337,13 +388,8 @@ Assignments Tracer::trace_derive(lua_State* L, Kind kind) {
 
 Assignments Tracer::trace_rate(lua_State* L, Kind kind) {
   const Active active(L, this);
-  context = {++frames, ++frames};
-  written.clear();
-  deriving = false;
-  const Symbol::Type type = kind == Kind::cell   ? Symbol::Type::cell
-                            : kind == Kind::side ? Symbol::Type::side
-                                                 : Symbol::Type::wall;
-  push(L, type, kind == Kind::cell ? context.cell_frame : context.body_frame);
+  begin(kind, false);
+  push(L, type_of(kind), kind == Kind::cell ? context.cell_frame : context.body_frame);
   push(L, Symbol::Type::rates, kind == Kind::cell ? context.cell_frame : context.body_frame);
   int arguments = 2;
   if (kind == Kind::wall) {
@@ -358,9 +404,7 @@ Assignments Tracer::trace_rate(lua_State* L, Kind kind) {
 
 Assignments Tracer::trace_flux(lua_State* L) {
   const Active active(L, this);
-  context = {++frames, ++frames};
-  written.clear();
-  deriving = false;
+  begin(Kind::wall, false);
   push(L, Symbol::Type::wall, context.body_frame);
   push(L, Symbol::Type::cell, context.body_frame, View::own);
   push(L, Symbol::Type::cell, context.body_frame, View::across);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/error.h"
 #include "rule/equations.h"
 #include "tissue/tissue.h"
 
@@ -43,11 +44,21 @@ class Tracer {
   };
   Context context{0, 0};
   int frames = 0;
+  uint64_t trace = 0;  ///< the rule's call with symbols that is under way: another number for each in this process
   bool deriving = false;
+  Kind subject = Kind::cell;  ///< what the rule is for
+  int sums = 0;               ///< that are being traced, one inside another
   Assignments written;
+  std::string fault;  ///< what the rule did that no rule may, with its place; stays even if the rule catches the error
+
+  /// Throws an error that the rule cannot escape by being run as it is: see fault.
+  [[noreturn]] void forbid(lua_State* L, const std::string& message);
 
   /// A column's value as a side or cell node; derived columns by their expression. Errors: unknown column.
   NodeId read(Kind kind, const std::string& name);
+
+ private:
+  void begin(Kind of, bool derives);
 };
 
 /// True if the value at `at` is a symbol of any kind.

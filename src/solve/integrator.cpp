@@ -176,6 +176,40 @@ std::string Integrator::explanation() {
   }
 }
 
+void Integrator::derive(const std::vector<double>& parameters, bool checked) {
+  system_->prepare(parameters);
+  AlignedBuffer y;
+  y.resize(system_->state_size());
+  system_->read_state(y.data());
+  system_->derive(time(), y.data());
+  if (!checked) return;
+  const Equations& e = system_->equations();
+  for (const Equations::Derivation& d : e.derivations) {
+    for (const Target& target : d.traced) check_derived(target.column);
+    if (d.direct >= 0)
+      for (const int column : e.direct_derivations[d.direct].columns) check_derived(column);
+  }
+}
+
+void Integrator::check_derived(int column) {
+  const Equations::ColumnRef& ref = system_->equations().columns[column];
+  const Tissue& tissue = system_->tissue();
+  const double* values = tissue.find_column(ref.kind, ref.name)->values.data();
+  const double* end = values + tissue.count(ref.kind);
+  const double* wrong = std::find_if(values, end, [](double v) { return !std::isfinite(v); });
+  if (wrong == end) return;
+  const Id id = tissue.id(ref.kind, static_cast<Index>(wrong - values));
+  throw StepFailed({"not finite", time(), ref.name, ref.kind, id, *wrong,
+                    fmt::format("{} became {:.6g} in {} {} at time {:.9g} ({}): it is derived; look for a division by "
+                                "zero in its rule",
+                                ref.name, *wrong, name_of(ref.kind), id, time(), method())});
+}
+
+std::string Integrator::method() const {
+  const std::string step = adaptive() ? fmt::format("tolerance {:.6g}", tolerance_) : fmt::format("dt {:.6g}", dt_);
+  return fmt::format("method {}, {}", stepper_->name(), step);
+}
+
 void Integrator::refuse(const Watch::Symptom& symptom, double time, const std::string& advice) {
   const System::StateColumn& s = system_->state()[symptom.column];
   const Id id = system_->tissue().id(s.kind, symptom.element);
@@ -183,10 +217,9 @@ void Integrator::refuse(const Watch::Symptom& symptom, double time, const std::s
   const std::string what = kind == "oscillation" ? fmt::format("{} swings (now {:.6g})", s.name, symptom.value)
                            : kind == "step size" ? fmt::format("{} (now {:.6g})", s.name, symptom.value)
                                                  : fmt::format("{} became {:.6g}", s.name, symptom.value);
-  const std::string step = adaptive() ? fmt::format("tolerance {:.6g}", tolerance_) : fmt::format("dt {:.6g}", dt_);
   throw StepFailed({kind, time, s.name, s.kind, id, symptom.value,
-                    fmt::format("{} in {} {} at time {:.9g} (method {}, {}): {}{}", what, name_of(s.kind), id, time,
-                                stepper_->name(), step, advice, explanation())});
+                    fmt::format("{} in {} {} at time {:.9g} ({}): {}{}", what, name_of(s.kind), id, time, method(),
+                                advice, explanation())});
 }
 
 void Integrator::refuse_method(const StepResult& result, double time) {

@@ -42,6 +42,10 @@ class Integrator {
   Status advance(double target, std::optional<double> pause, const std::function<bool()>& out_of_time,
                  const CancelFlag* cancel, const std::vector<double>& parameters);
 
+  /// Writes the derived columns for the state that the tissue holds. Errors: StepFailed, if `checked` and a value is
+  /// not finite. Steps do not ask: what a rate reads shows in the state, the rest when someone looks.
+  void derive(const std::vector<double>& parameters, bool checked);
+
   /// The last step, if it can still be looked into: nothing was changed or loaded since.
   struct Step {
     double begin, end;
@@ -81,6 +85,8 @@ class Integrator {
   void reject(const StepResult& result, const std::optional<Watch::Symptom>& symptom);
   double first_length();
   void interpolate(double time, double* y);
+  void check_derived(int column);
+  std::string method() const;  ///< in words, for messages
   [[noreturn]] void refuse(const Watch::Symptom& symptom, double time, const std::string& advice);
   [[noreturn]] void refuse_method(const StepResult& result, double time);
   std::string explanation();

@@ -45,3 +45,20 @@ assert(must_fail(model, "cell 8"):find "inf")
 -- forward Euler beyond its limit: the change turns round at every step and grows
 local model, tissue = model_with(function(c, d) d.auxin = 30 * (2 - c.auxin) end, { signed = { "auxin" } })
 must_fail(model, "auxin")
+
+-- in a derived column that no rate reads: when the columns are brought up to date, with name, cell and time
+local function derived(rule, ...)
+  local model, tissue = model_with(function(c, d) d.auxin = 1 end)
+  tissue:cell { ratio = 0 }
+  model:derive(rule)
+  model:at(5, function() end)
+  must_fail(model, "ratio became", "in cell 8", "it is derived", ...)
+  local f = model.failure
+  assert(f.kind == "not finite" and f.column == "ratio" and f.element == "cell" and f.id == 8)
+  return model, tissue
+end
+derived(function(c) c.ratio = 1 / (c.column - 7) end, "inf", "time 0 ")
+derived(function(c) c.ratio = c.auxin / (c.column - 7 == 0 and 0 or 1) end, "inf", "time 0 ")  -- run as it is
+local model, tissue = derived(function(c, t) c.ratio = math.sqrt(c.column - 7 + 100 * (4.5 - t) * tunica.equal(c.column, 7) + 8) end,
+  "nan", "time 5 ")
+for c in tissue:cells() do assert(math.abs(c.auxin - 6) < 1e-9, "the state is that of the time") end

@@ -29,6 +29,8 @@ local gone = fresh()
 local stale = gone:find(5)
 stale:divide()
 
+local kept -- by a rule, from the call before
+
 --- Name and maker of each awkward value; what belongs to the tissue at hand is made from it.
 local awkward = {
   { "nil", function() return nil end },
@@ -51,8 +53,22 @@ local awkward = {
   { "failing function", function() return function() error("as it must") end end },
   { "changing function", function(t) return function() t:find(1):remove() return 1, 1, 1, 1 end end },
   { "silent function", function() return function() end end },
+  { "keeping function", function()
+    return function(x, d)
+      local before = kept
+      kept = { x, type(x) == "userdata" and x.auxin, d }
+      for _, value in ipairs(before or {}) do
+        if random(3) < 2 then pcall(function() value.auxin = 1 end) end
+        if random(3) < 2 then pcall(function() return value:sum(function(n) return n.auxin + kept[2] end) end) end
+        if random(3) < 2 then d.auxin = value end
+      end
+      d.auxin = before and random(2) < 2 and before[2] or 1
+      return before and before[2]
+    end
+  end },
 }
 
+local is_model = require("tunica.model").is_model
 local calls, errors = 0, 0
 
 --- One call: a Lua error with a text, or a valid tissue.
@@ -67,6 +83,13 @@ local function try(what, tissue, f, ...)
   local valid, problems = tissue:validate()
   assert(valid, what .. ": " .. table.concat(problems or {}, "\n"))
   if core.kind(message) == "tissue" then check.valid(message) end
+  return message
+end
+
+--- The same for an operation of a model, whose rules and events come to light when it runs.
+local function try_model(what, tissue, f, model, ...)
+  try(what, tissue, f, model, ...)
+  if is_model(model) then try(what .. ", then advanced", tissue, model.advance, model, { to = 0.3 }) end
 end
 
 --- What may be needed to reach the code behind the checks: a right value for each required argument.
@@ -84,8 +107,18 @@ local function right(spec, tissue)
   return tissue:find(2, core.methods[kind] and kind ~= "tissue" and kind or "cell")
 end
 
+--- A small model, that what is called may be followed by a run. An event ends those that would go on for ever.
+local function model_of(tissue)
+  local model = tunica.model { tissue = tissue, dt = 0.1 }
+  model:rate(function(c, d) d.auxin = c:sum(function(n) return n.auxin - c.auxin end) end)
+  model:derive(function(c) c.twice = 2 * c.auxin end)
+  model:at(0.5, function() error "far enough" end)
+  return model
+end
+
 local function subject(entry, tissue)
   if entry.owner == "tunica" then return nil end
+  if entry.owner == "model" then return model_of(tissue) end
   if entry.owner == "tissue" then return tissue end
   return tissue:find(1, entry.owner)
 end
@@ -105,14 +138,15 @@ local function call_with(entry, values, what)
     given, count = { options }, 1
   end
   if entry.owner == "tunica" then
-    try(what, tissue, entry.call, unpack(given, 1, count))
+    local made = try(what, tissue, entry.call, unpack(given, 1, count))
+    if is_model(made) then try(what .. ", then advanced", tissue, made.advance, made, { to = 0.3 }) end
   else
-    try(what, tissue, entry.call, subject(entry, tissue), unpack(given, 1, count))
+    (entry.owner == "model" and try_model or try)(what, tissue, entry.call, subject(entry, tissue), unpack(given, 1, count))
   end
 end
 
-local owners = { tunica = true, tissue = true, cell = true, wall = true, side = true, junction = true }
-local foreign_names = { ["tunica.params"] = true, ["tunica.model"] = true } -- one of each per script
+local owners = { tunica = true, tissue = true, cell = true, wall = true, side = true, junction = true, model = true }
+local foreign_names = { ["tunica.params"] = true } -- one per script
 local slow = { ["tissue:picture"] = true, ["tissue:show"] = true } -- each call draws
 local function ours(entry)
   return owners[entry.owner] and not foreign_names[entry.name] and entry.kind ~= "property" and
@@ -124,7 +158,8 @@ local function fuzz_entry(entry)
     -- in the place of the subject, without a subject, as only argument, as one argument too many
     local tissue = fresh()
     try(entry.name .. " of " .. one[1], tissue, entry.call, one[2](tissue))
-    try(entry.name .. " with " .. one[1], tissue, entry.call, subject(entry, tissue) or 1, one[2](tissue))
+    ;(entry.owner == "model" and try_model or try)(entry.name .. " with " .. one[1], tissue, entry.call,
+      subject(entry, tissue) or 1, one[2](tissue))
     try(entry.name .. " with many", tissue, entry.call, subject(entry, tissue) or 1, 1, 1, 1, 1, 1, 1, one[2](tissue))
     for i, spec in ipairs(entry.args) do
       call_with(entry, { [i] = one[2] }, entry.name .. " with " .. spec.name .. " = " .. one[1])
@@ -172,17 +207,29 @@ for _, kind in ipairs { "cell", "wall", "side", "junction" } do
   end
 end
 
+local awkward_below = {
+  { "rules", function(t) return core.rules(t) end },
+  { "machine", function(t) return core.machine(core.rules(t), "euler", 0.1, 1, {}) end },
+}
+for i, one in ipairs(awkward) do awkward_below[i + 2] = one end
+
 -- The functions below the registry, which a script can reach by require: they check again.
 local of_files = { write_atomic = true, mkdir = true, rename = true, remove_all = true, random_state = true, seed = true,
-  overrides = true }
+  overrides = true, lock_file = true }
 for name, f in pairs(core) do
   if type(f) == "function" and not of_files[name] then
-    for _, one in ipairs(awkward) do
+    for _, one in ipairs(awkward_below) do
       local tissue = fresh()
       try("core." .. name, tissue, f, one[2](tissue))
       try("core." .. name, tissue, f, tissue, one[2](tissue), one[2](tissue), one[2](tissue))
       try("core." .. name, tissue, f, tissue:find(1), one[2](tissue), one[2](tissue), one[2](tissue))
       try("core." .. name, tissue, f, tissue, "cell", one[2](tissue), one[2](tissue), one[2](tissue))
+      local rules = core.rules(tissue)
+      try("core." .. name, tissue, f, rules, "rate", "cell", one[2](tissue), "here", one[2](tissue))
+      try("core." .. name, tissue, f, rules, "derive", "side", one[2](tissue), "here", { "auxin" })
+      try("core." .. name, tissue, f, rules, {}, 0, 1, one[2](tissue))
+      local machine = core.machine(rules, "heun", 0.1, 1, {})
+      try("core." .. name, tissue, f, machine, {}, one[2](tissue), one[2](tissue), 0.01)
     end
   end
 end

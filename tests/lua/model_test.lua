@@ -109,6 +109,24 @@ do
   check.valid(tissue)
 end
 
+-- Events more often than steps: each at its time, with the state of that time.
+do
+  local tissue = tunica.ring { 5 }
+  tissue:cell { auxin = 0 }
+  local model = tunica.model { tissue = tissue, dt = 1 }
+  model:rate(function(c, d) d.auxin = 2 end)
+  local often, seldom = 0, 0
+  model:every(0.3, function(t)
+    often = often + 1
+    check.near(t, 0.3 * often, 1e-12)
+    check.near(tissue:max "auxin", 2 * t, 1e-9)
+  end)
+  model:every(0.002, function() seldom = seldom + 1 end)
+  model:advance { to = 3 }
+  check.equal(often, 10)
+  check.equal(seldom, 1500)
+end
+
 -- Columns of sides: derived, and with rates.
 do
   local tissue = sheet()
@@ -134,13 +152,22 @@ check.fails(function() tunica.model { tissue = tissue, dt = -1 } end, "dt", "gre
 check.fails(function() tunica.model { tissue = tissue, dt = 1, methd = "euler" } end, "methd", "method")
 check.fails(function() tunica.model { tissue = tissue, dt = 1, method = "eulr" } end, "euler")
 check.fails(function() model:rate(5) end, "or a function")
+check.fails(function() model:rate(print, print) end, "one rule at a time")
+check.fails(function() model:derive(print, print) end, "one rule at a time")
+check.fails(function() model:rate("cell", print, print) end, "one more")
 check.fails(function() model:every(-1, print) end, "interval")
+check.fails(function() model:every(1e-12, print) end, "interval 1e-12", "dt = 0.1")
 check.fails(function() return model.tim end, "time")
 do
   local bad = tunica.model { tissue = sheet(), dt = 0.1 }
   bad:rate(function(c, d) d.auxin = c.auxn end)
   local ok, message = pcall(bad.advance, bad, { to = 1 })
   assert(not ok and message:find("auxn", 1, true) and message:find("auxin", 1, true) and message:find("model_test.lua:%d+"), message)
+  check.fails(function()
+    local misspelt = tunica.model { tissue = sheet(), dt = 0.1, signed = { "auxin", "auxn" } }
+    misspelt:rate(function(c, d) d.auxin = 0 end)
+    misspelt:advance { to = 1 }
+  end, "'auxn'", "did you mean 'auxin'")
   local changing = tunica.model { tissue = sheet(), dt = 0.1 }
   changing:rate(function(c, d)
     if c.auxin > 0 then c:remove() end

@@ -35,6 +35,18 @@ code 1 "$tunica" --json -e 'error "early"'; [ "$(field out.txt message)" != nil 
 # Failures name what and where, and keep the last good state.
 code 3 "$tunica" "$fake" nan_at=3 --out nan; says err.txt "auxin of cell 3 is nan"; says err.txt "nan/checkpoint.bin"
 [ "$(field nan/run.json failures.1.column)" = auxin ] || wrong "run.json of a failure"
+cat >ratio.lua <<'LUA'
+local tunica = require "tunica"
+local tissue = tunica.ring { 20 }
+tissue:cell { auxin = 1, ratio = 0 }
+local model = tunica.model { tissue = tissue, dt = 0.1, stop = 10 }
+model:rate(function(c, d) d.auxin = 1 end)
+model:derive(function(c, t) c.ratio = math.sqrt(5.5 - t) end)
+model:report { every = 1, ratio = function() return tissue:max "ratio" end }
+return model
+LUA
+code 3 "$tunica" ratio.lua --out ratio; says err.txt "ratio became"; says err.txt "in cell 1 at time 6"
+[ "$(field ratio/run.json failures.1.column)" = ratio ] || wrong "run.json of a failure in a derived column"
 code 1 "$tunica" "$fake" error_at=3 --out mistake; says err.txt "fake_model.lua:25"
 [ "$(field mistake/run.json status)" = failed ] || wrong "status of a failure"
 
@@ -72,6 +84,29 @@ code 0 "$tunica" rerun modular --out modular2; says out.txt "yes"
 code 0 "$tunica" rerun piped --out piped2; says out.txt "yes"
 code 0 "$tunica" -e "return dofile '$fake'" -q --out coded
 code 0 "$tunica" rerun coded --out coded2; says out.txt "yes"
+
+# The commit that is checked out where the script lies, as git keeps it: loose, packed, detached, in a linked work tree.
+hash_of() { printf "$1%.0s" $(seq 40); }
+git_is() { code 0 "$tunica" "$1" -q --out "git$2"; [ "$(field "git$2/run.json" git)" = "$3" ] || wrong "git $2 is not $3"; }
+mkdir -p tree/deep tree/.git/refs/heads && cp "$fake" tree/deep/model.lua
+git_is tree/deep/model.lua 1 nil
+echo 'ref: refs/heads/main' >tree/.git/HEAD
+git_is tree/deep/model.lua 2 nil
+printf '# pack-refs with: peeled\n%s refs/heads/other\n%s refs/heads/main\n^%s\n' "$(hash_of a)" "$(hash_of b)" "$(hash_of c)" >tree/.git/packed-refs
+git_is tree/deep/model.lua 3 "$(hash_of b)"
+hash_of d >tree/.git/refs/heads/main
+git_is tree/deep/model.lua 4 "$(hash_of d)"
+(cd tree/deep && "$tunica" model.lua -q --out here >/dev/null) || wrong "run in its own folder"
+[ "$(field tree/deep/here/run.json git)" = "$(hash_of d)" ] || wrong "git of a script named without a folder"
+mkdir -p linked tree/.git/worktrees/linked && cp "$fake" linked/model.lua
+echo 'gitdir: ../tree/.git/worktrees/linked' >linked/.git; echo ../.. >tree/.git/worktrees/linked/commondir
+echo 'ref: refs/heads/other' >tree/.git/worktrees/linked/HEAD
+git_is linked/model.lua 5 "$(hash_of a)"
+hash_of e >tree/.git/HEAD
+git_is tree/deep/model.lua 6 "$(hash_of e)"
+rm -r tree/.git
+code 0 "$tunica" rerun git6 --out git7; [ "$(field git7/run.json git)" = "$(hash_of e)" ] || wrong "git after rerun"
+code 0 "$tunica" -e "return dofile '$fake'" -q --out git8; [ "$(field git8/run.json git)" = nil ] || wrong "git of no file"
 
 # Where nothing can be written. Root writes anywhere, so that a folder of /proc stands for a forbidden place.
 code 4 "$tunica" "$fake" --out /proc/forbidden; says err.txt "/proc"

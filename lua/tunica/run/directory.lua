@@ -43,6 +43,16 @@ function directory.make(path, name, fill)
   error(message or directory.refusal(path), 0)
 end
 
+local lock = "/.lock"
+
+--- Whether this process alone works in the run directory from now on, until it ends; else why not.
+function directory.lock(folder)
+  if core.lock_file(folder .. lock) then return true end
+  local _, holder = pcall(core.read_file, folder .. lock)
+  holder = tostring(holder):match "^(%d+)\n$"
+  return false, string.format("'%s' is in use: %s is running it", folder, holder and "process " .. holder or "another process")
+end
+
 --- Copies of the sources under <folder>/script, so that the run can be repeated when the originals have changed.
 -- `main`: path of the script as it was loaded. Returns { main = entry, modules = { entry, ... } }, an entry being
 -- { path = original, copy = "script/...", hash = }.

@@ -24,7 +24,7 @@ function record.of(self)
   local cost = about.cost
   about.warnings, about.cost = nil, nil
   return {
-    name = self.name, status = self.status, script = self.script, arguments = core.as_list(options.arguments),
+    name = self.name, status = self.status, script = self.script, git = self.git, arguments = core.as_list(options.arguments),
     code = core.as_list(options.code),
     parameters = parameters_of(model), seed = core.seed(), versions = core.decode(options.versions), method = about,
     options = { until_time = self.goal, frames = options.frames, movie = options.movie }, warnings = warnings,
