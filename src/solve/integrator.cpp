@@ -166,7 +166,12 @@ std::string Integrator::explanation() {
     AlignedBuffer rate, vector;
     rate.resize(system_->state_size());
     system_->rates(time(), y_.data(), rate.data());
-    const SpectralRadius found = spectral_radius(*system_, time(), y_.data(), rate.data(), vector, 300);
+    vector.resize(system_->state_size());  // the change in the bad step points along the mode that is unstable
+    for (size_t i = 0; i < vector.size(); ++i) {
+      const double change = y_new_.data()[i] - y_.data()[i];
+      vector.data()[i] = std::isfinite(change) ? change : 0;
+    }
+    const SpectralRadius found = spectral_radius(*system_, time(), y_.data(), rate.data(), vector, 1e-4, 500);
     const double limit = stepper_->stability() / found.radius;
     if (!(limit > 0) || !std::isfinite(limit) || !(dt_ > 0.94 * limit)) return "";
     return fmt::format(". dt = {:.4g} is {} this method's limit of about {:.3g} here", dt_,

@@ -49,8 +49,10 @@ class Integrator {
   std::optional<Step> last_step() const;
   /// Lets the tissue hold the state at a time within the last step, interpolated; time() is then this one.
   void show(double time);
-  /// Takes the last step back and goes from its start to `time` within it, exactly: for an event that is due there.
-  void retake(double time, const CancelFlag* cancel);
+  /// Takes the last step back and goes from its start to `time`, exactly: for an event that is due there.
+  Status retake(double time, const CancelFlag* cancel);
+  /// Adaptive steps, with a state shown within the last one: from there to its end.
+  bool inside_last_step() const { return inside_; }
 
   void allow_negative(std::vector<std::string> columns) { watch_.allow_negative(std::move(columns)); }
   /// What the rules say has changed: what the method keeps is to be forgotten.
@@ -79,6 +81,7 @@ class Integrator {
   void adaptive_step(double target);
   void accept(const StepResult& result, bool shortened);
   void reject(const StepResult& result, const std::optional<Watch::Symptom>& symptom);
+  Watch::Symptom bad_rate(double time);
   double first_length();
   void interpolate(double time, double* y);
   [[noreturn]] void refuse(const Watch::Symptom& symptom, double time, const std::string& advice);

@@ -128,8 +128,11 @@ void Integrator::reject(const StepResult& result, const std::optional<Watch::Sym
   if (next_ > least_step * std::max(std::fabs(end()), longest_)) return;
   next_ = 0;
   if (result.failed) refuse_method(result, end());
-  Watch::Symptom where = symptom ? *symptom : Watch::most_changed(*system_, "step size", y_.data(), y_new_.data());
-  const std::string why = std::string(where.kind) == "not finite" ? "it is then not finite"
+  Watch::Symptom where = symptom ? *symptom
+                         : !std::isfinite(result.error)
+                             ? bad_rate(end() + tried)
+                             : Watch::most_changed(*system_, "step size", y_.data(), y_new_.data());
+  const std::string why = std::string(where.kind) == "not finite" ? "it, or its rate, is then not finite"
                           : symptom                               ? "it is then negative"
                                                                   : "the error is then too large";
   where.kind = "step size";
@@ -139,6 +142,19 @@ void Integrator::reject(const StepResult& result, const std::optional<Watch::Sym
                      tried, why,
                      symptom ? "; if it may be negative, list it in signed = { ... } of tunica.model"
                              : "; a larger tolerance may help"));
+}
+
+/// Where the rates of the state tried are not finite.
+Watch::Symptom Integrator::bad_rate(double time) {
+  AlignedBuffer rate;
+  rate.resize(system_->state_size());
+  system_->rates(time, y_new_.data(), rate.data());
+  for (size_t k = 0; k < system_->state().size(); ++k) {
+    const System::StateColumn& s = system_->state()[k];
+    for (Index i = 0; i < s.count; ++i)
+      if (!std::isfinite(rate.data()[s.offset + i])) return {"not finite", k, i, y_new_.data()[s.offset + i]};
+  }
+  return Watch::most_changed(*system_, "step size", y_.data(), y_new_.data());
 }
 
 /// The length of the very first step (Hairer, Norsett and Wanner I, II.4).
@@ -205,10 +221,10 @@ void Integrator::show(double time) {
   if (stepper_->remembers()) seen_ = fingerprint();
 }
 
-void Integrator::retake(double time, const CancelFlag* cancel) {
-  if (!have_last_ || !(time > begin_ && time <= end())) fail("internal: time {} is not in the last step", time);
+Integrator::Status Integrator::retake(double time, const CancelFlag* cancel) {
+  if (!have_last_ || !(time > begin_)) fail("internal: time {} is not after the start of the last step", time);
   back();
-  guarded([&] {
+  return guarded([&] {
     const std::function<bool()> never;
     const Run arguments{time, {}, never, cancel};
     return adaptive() ? run_adaptive(arguments) : run_fixed(arguments);
