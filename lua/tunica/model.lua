@@ -97,7 +97,7 @@ op { name = "tunica.model", kind = "named", returns = "a model",
     check_solution("tunica.model", o)
     local model = setmetatable({}, meta)
     inside[model] = { tissue = o.tissue, params = o.params or params.current(), dt = o.dt, method = o.method, tolerance = o.tolerance, threads = o.threads,
-      adaptive = adaptive(o), spent = {},
+      adaptive = adaptive(o), step = o.dt, spent = {},
       signed = o.signed, stop = o.stop, rules = {}, events = {}, conditions = {}, views = {}, reports = {}, saved_time = 0, stale = true, warnings = {} }
     return model
   end }
@@ -559,14 +559,16 @@ op { name = "model:solve_with", kind = "named",
     if my.busy then fail("model:solve_with cannot be called in a rule") end
     local method = o.method or my.method
     local solution = { method = method, dt = o.dt, tolerance = o.tolerance }
-    if not o.method or not ways[method].adaptive then solution.dt = o.dt or my.dt end
+    if not o.method then solution.dt = o.dt or my.dt
+    elseif not ways[method].adaptive then solution.dt = o.dt or my.step end
     if not o.method then solution.tolerance = o.tolerance or my.tolerance end
     check_solution("model:solve_with", solution)
     if my.machine then
       settle(my)
       core.machine_method(my.machine, solution.method, solution.dt, solution.tolerance)
     end
-    my.method, my.dt, my.tolerance, my.adaptive = solution.method, solution.dt, solution.tolerance, adaptive(solution)
+    my.method, my.dt, my.tolerance, my.adaptive = method, solution.dt, solution.tolerance, adaptive(solution)
+    my.step = my.dt or my.step
     my.spent = {}
   end }
 
