@@ -204,7 +204,7 @@ int retake(lua_State* L) {
   return guard(L, [&] {
     Machine& m = object_at<Machine>(L, 1);
     const double time = check_number(L, 2, "a time");
-    return run(L, m, [&] { return m.integrator->retake(time, &host(L).cancel); });
+    return run(L, m, [&] { return m.integrator->retake(time); });
   });
 }
 

@@ -23,7 +23,7 @@ Integrator::Integrator(std::shared_ptr<System> system, std::unique_ptr<Stepper> 
 }
 
 double Integrator::slack() const {
-  if (!adaptive()) return 1e-9 * dt_;
+  if (!adaptive()) return std::max(1e-9 * dt_, 4e-16 * std::fabs(time()));
   return 1e-12 * std::max(std::fabs(time()), longest_);
 }
 

@@ -49,8 +49,9 @@ class Integrator {
   std::optional<Step> last_step() const;
   /// Lets the tissue hold the state at a time within the last step, interpolated; time() is then this one.
   void show(double time);
-  /// Takes the last step back and goes from its start to `time`, exactly: for an event that is due there.
-  Status retake(double time, const CancelFlag* cancel);
+  /// Takes the last step back and goes from its start to `time`, exactly: for an event that is due there. Heeds no
+  /// cancel flag.
+  Status retake(double time);
   /// Adaptive steps, with a state shown within the last one: from there to its end.
   bool inside_last_step() const { return inside_; }
 

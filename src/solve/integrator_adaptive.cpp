@@ -13,6 +13,18 @@ namespace {
 /// A step shorter than this, relative to the time or to the longest step tried, cannot be told from none.
 constexpr double least_step = 1e-12;
 
+/// Short work that is not to be broken off: what it is part of could not be gone on with in the same bits.
+class Uninterrupted {
+ public:
+  explicit Uninterrupted(System& system) : system_(system), before_(system.heed(nullptr)) {}
+  ~Uninterrupted() { system_.heed(before_); }
+  Uninterrupted(const Uninterrupted&) = delete;
+
+ private:
+  System& system_;
+  const CancelFlag* before_;
+};
+
 /// The length h for which t + h is the target, to the last bit where there is one.
 double exact_length(double t, double target) {
   const double h = target - t;
@@ -212,6 +224,7 @@ void Integrator::show(double time) {
     if (stepper_->remembers()) seen_ = fingerprint();
     return;
   }
+  const Uninterrupted whole(*system_);
   AlignedBuffer state;
   state.resize(system_->state_size());
   interpolate(time, state.data());
@@ -221,12 +234,13 @@ void Integrator::show(double time) {
   if (stepper_->remembers()) seen_ = fingerprint();
 }
 
-Integrator::Status Integrator::retake(double time, const CancelFlag* cancel) {
+Integrator::Status Integrator::retake(double time) {
   if (!have_last_ || !(time > begin_)) fail("internal: time {} is not after the start of the last step", time);
+  const Uninterrupted whole(*system_);
   back();
   return guarded([&] {
     const std::function<bool()> never;
-    const Run arguments{time, {}, never, cancel};
+    const Run arguments{time, {}, never, nullptr};
     return adaptive() ? run_adaptive(arguments) : run_fixed(arguments);
   });
 }

@@ -189,7 +189,7 @@ TEST(Integrator, TheLastStepCanBeLookedIntoAndTakenAgain) {
     const std::vector<double> shown = values(*solver);
     solver->show(last->end);
     EXPECT_EQ(values(*solver), end);
-    solver->retake(middle, nullptr);
+    solver->retake(middle);
     EXPECT_EQ(solver->time(), middle);
     EXPECT_LT(difference(*solver, shown), 1e-5) << label(w);
     run(*solver, p, 2);
