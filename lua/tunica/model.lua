@@ -156,10 +156,13 @@ op { name = "model:at", fn = function(model, time, fn) table.insert(inside[model
   doc = "Something that happens once.", example = diffusion .. "model:at(2, function() print 'now' end)" }
 op { name = "model:when",
   args = { { name = "condition", type = "function", required = true, doc = "function(t): true or false; it must change nothing" },
-    { name = "event", type = "function", required = true, doc = "function(t)" } },
+    { name = "event", type = "function", required = true, doc = "function(t)" },
+    { name = "located", type = "boolean", default = true, doc = "false: it happens at the end of the step, and changes no step; for what only watches" } },
   doc = "Something that happens each time a condition becomes true. It is asked at the start, after events, and after each step; when it has become true in a step, the step is taken anew to end where it did.",
   example = diffusion .. "model:when(function() return tissue:max 'auxin' < 1.01 end, function(t) print(t) end)",
-  fn = function(model, condition, fn) table.insert(inside[model].conditions, { test = condition, fn = fn, holds = false }) end }
+  fn = function(model, condition, fn, located)
+    table.insert(inside[model].conditions, { test = condition, fn = fn, holds = false, located = located })
+  end }
 
 -- Views and report -------------------------------------------------------------------------------------------------------
 
@@ -352,11 +355,14 @@ local function test_conditions(my, now)
   end
 end
 
---- Whether a condition has become true in the state that the tissue holds.
+--- Whether a condition whose time is to be found has become true in the state that the tissue holds.
 local function any_becomes(my, time)
+  local any = false
+  for _, condition in ipairs(my.conditions) do any = any or condition.located and not condition.holds end
+  if not any then return false end
   refresh_derived(my)
   for _, condition in ipairs(my.conditions) do
-    if not condition.holds and condition.test(time) then return true end
+    if condition.located and not condition.holds and condition.test(time) then return true end
   end
   return false
 end

@@ -126,11 +126,19 @@ Integrator::Status Integrator::run_fixed(const Run& run) {
     const double next = origin_ + static_cast<double>(index_ + 1) * dt_;
     if (next > run.target + near) {
       fixed_step(run.target - time(), run.target);
+      between_.reset();
       origin_ = run.target;
       index_ = 0;
       return Status::reached;
     }
-    fixed_step(dt_, next);
+    if (between_ && next - *between_ <= near) {  // nothing is left of the step
+      between_.reset();
+      ++index_;
+      if (next >= run.target - near) return Status::reached;
+      continue;
+    }
+    fixed_step(between_ ? next - *between_ : dt_, next);
+    between_.reset();
     ++index_;
     if (time() >= run.target - near) return Status::reached;
     if (run.pause && time() >= *run.pause - near) return Status::paused;
@@ -140,6 +148,7 @@ Integrator::Status Integrator::run_fixed(const Run& run) {
 
 void Integrator::fixed_step(double h, double end) {
   const double begin = time();
+  begun_ = {origin_, index_, between_};
   have_last_ = have_slopes_ = false;
   const StepResult result = stepper_->step(*system_, begin, y_.data(), h, y_new_.data());
   if (result.failed) refuse_method(result, end);
@@ -205,6 +214,7 @@ void Integrator::refuse_method(const StepResult& result, double time) {
 void Integrator::continue_from(double time, uint64_t steps) {
   origin_ = time;
   index_ = 0;
+  between_.reset();
   steps_ = steps;
   inside_ = have_last_ = false;
   seen_.clear();
@@ -215,9 +225,10 @@ void Integrator::save(ByteWriter& out) const {
   out.put(index_);
   out.put(steps_);
   out.put(dt_);
-  if (!stepper_->remembers()) return;
+  if (!stepper_->remembers() && !between_) return;
   out.text(stepper_->name());
   out.put(time());
+  out.put(static_cast<uint8_t>(between_.has_value()));
   out.put(next_);
   out.put(error_before_);
   out.put(longest_);
@@ -249,6 +260,7 @@ void Integrator::load(ByteReader& in) {
   continue_from(origin, steps);
   index_ = index;
   if (method.empty()) return;
+  if (in.get<uint8_t>() != 0) between_ = shown;
   next_ = in.get<double>();
   error_before_ = in.get<double>();
   longest_ = in.get<double>();

@@ -16,10 +16,11 @@ namespace tunica {
 /// Takes a model through time with one method, watching each step.
 ///
 /// Fixed steps lie on a grid of multiples of `dt`; a target (an event) off the grid is met by one shorter step, from
-/// which a new grid begins. Adaptive steps are as long as the tolerance and `dt` allow; the one that would pass the
-/// target is cut to meet it. Where output is wanted, or how often a run is interrupted, changes no step: fixed steps
-/// pause at the end of a step, adaptive ones show the state interpolated to the moment asked for and go on from the
-/// real one, unless what the tissue holds was changed meanwhile.
+/// which a new grid begins; a step taken anew to end within itself is followed by one that ends on the grid again.
+/// Adaptive steps are as long as the tolerance and `dt` allow; the one that would pass the target is cut to meet it.
+/// Where output is wanted, or how often a run is interrupted, changes no step: fixed steps pause at the end of a step,
+/// adaptive ones show the state interpolated to the moment asked for and go on from the real one, unless what the
+/// tissue holds was changed meanwhile.
 class Integrator {
  public:
   static constexpr double unlimited = std::numeric_limits<double>::infinity();
@@ -67,7 +68,10 @@ class Integrator {
 
  private:
   struct Run;  // arguments of one advance()
-  double end() const { return index_ == 0 ? origin_ : origin_ + static_cast<double>(index_) * dt_; }
+  double end() const {
+    if (between_) return *between_;
+    return index_ == 0 ? origin_ : origin_ + static_cast<double>(index_) * dt_;
+  }
   AlignedBuffer& before() { return adaptive() ? y_before_ : y_new_; }
   void enter(const std::vector<double>& parameters);
   void leave();
@@ -99,6 +103,12 @@ class Integrator {
   AlignedBuffer y_before_;   ///< adaptive: the same
   Watch watch_;
 
+  std::optional<double> between_;  ///< fixed: the time, if it lies within step index_ + 1 of the grid
+  struct {
+    double origin;
+    uint64_t index;
+    std::optional<double> between;
+  } begun_{};               ///< fixed: where the last step began, on the grid
   double begin_ = 0;        ///< of the last step
   bool have_last_ = false;  ///< the last step can be looked into
   bool inside_ = false;     ///< the tissue holds the state at shown_, within the last step

@@ -73,11 +73,16 @@ std::optional<Integrator::Status> Integrator::within_last_step(const Run& run) {
 /// The state before the last step.
 void Integrator::back() {
   std::swap(y_, before());
-  origin_ = begin_;
-  index_ = 0;
+  if (adaptive()) {
+    origin_ = begin_;
+  } else {
+    origin_ = begun_.origin;
+    index_ = begun_.index;
+    between_ = begun_.between;
+  }
   --steps_;
   inside_ = have_last_ = have_slopes_ = false;
-  stepper_->restart(*system_, origin_, y_.data());
+  stepper_->restart(*system_, begin_, y_.data());
 }
 
 void Integrator::adaptive_step(double target) {
@@ -239,9 +244,10 @@ Integrator::Status Integrator::retake(double time) {
   const Uninterrupted whole(*system_);
   back();
   return guarded([&] {
-    const std::function<bool()> never;
-    const Run arguments{time, {}, never, nullptr};
-    return adaptive() ? run_adaptive(arguments) : run_fixed(arguments);
+    if (adaptive()) return run_adaptive({time, {}, {}, nullptr});
+    fixed_step(time - begin_, time);
+    between_ = time;
+    return Status::reached;
   });
 }
 

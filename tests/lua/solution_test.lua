@@ -65,6 +65,26 @@ do
   check.equal(first, 0)
 end
 
+-- What only watches changes no step.
+do
+  local model, tissue = ring { method = "euler", dt = 0.01 }
+  local other, same = ring { method = "euler", dt = 0.01 }
+  local limit, when = 0.5 * (1 + tissue:max "auxin")
+  model:when(function() return tissue:max "auxin" < limit end, function(t) when = t end, false)
+  model:advance { to = 1 }
+  other:advance { to = 1 }
+  check.equal(same:hash(), tissue:hash())
+  check.near(when / 0.01, math.floor(when / 0.01 + 0.5), 1e-9)
+end
+
+-- After an event within it, a fixed step ends on the grid again.
+do
+  local model, tissue = ring { method = "heun", dt = 0.01 }
+  model:when(function() return tissue:max "auxin" < 1.4 end, function(t) assert(t > 0 and t < 0.5) end)
+  model:advance { to = 0.5 }
+  check.equal(model.steps, 51)
+end
+
 -- Pauses and conditions: the same bits, also where an output falls into a step before a condition's event.
 for _, way in ipairs(ways) do
   local function make()
