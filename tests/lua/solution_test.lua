@@ -80,7 +80,7 @@ end
 -- After an event within it, a fixed step ends on the grid again.
 do
   local model, tissue = ring { method = "heun", dt = 0.01 }
-  local limit = 0.7 + 0.3 * tissue:max "auxin"
+  local limit = 0.1 + 0.9 * tissue:max "auxin"
   model:when(function() return tissue:max "auxin" < limit end, function(t) assert(t > 0 and t < 0.5) end)
   model:advance { to = 0.5 }
   check.equal(model.steps, 51)
