@@ -78,7 +78,7 @@ void Integrator::enter(const std::vector<double>& parameters) {
   }
   if (!inside_) system_->read_state(y_.data());
   have_last_ = unchanged && inside_;
-  if (const auto symptom = watch_.begin(*system_, y_.data()))
+  if (const auto symptom = watch_.begin(*system_, y_.data(), margin()))
     refuse(*symptom, time(), "it was so before the step; look at what set it");
   if (!unchanged) stepper_->restart(*system_, end(), y_.data());
 }
@@ -152,7 +152,7 @@ void Integrator::fixed_step(double h, double end) {
   have_last_ = have_slopes_ = false;
   const StepResult result = stepper_->step(*system_, begin, y_.data(), h, y_new_.data());
   if (result.failed) refuse_method(result, end);
-  if (const auto symptom = watch_.state(*system_, y_.data(), y_new_.data(), result.flags, 1e-9))
+  if (const auto symptom = watch_.state(*system_, y_.data(), y_new_.data(), result.flags, margin()))
     refuse(*symptom, end,
            std::string(symptom->kind) == "negative"
                ? "a concentration cannot be; try a smaller dt. If it may be negative, list it in signed = { ... } of "

@@ -72,6 +72,7 @@ class Integrator {
     if (between_) return *between_;
     return index_ == 0 ? origin_ : origin_ + static_cast<double>(index_) * dt_;
   }
+  double margin() const { return adaptive() && tolerance_ > 1e-9 ? tolerance_ : 1e-9; }
   AlignedBuffer& before() { return adaptive() ? y_before_ : y_new_; }
   void enter(const std::vector<double>& parameters);
   void leave();

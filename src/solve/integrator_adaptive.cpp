@@ -96,8 +96,7 @@ void Integrator::adaptive_step(double target) {
     longest_ = std::max(longest_, h);
     const StepResult result = stepper_->step(*system_, t, y_.data(), h, y_new_.data());
     std::optional<Watch::Symptom> symptom;
-    if (!result.failed)
-      symptom = watch_.state(*system_, y_.data(), y_new_.data(), result.flags, std::max(1e-9, tolerance_));
+    if (!result.failed) symptom = watch_.state(*system_, y_.data(), y_new_.data(), result.flags, margin());
     if (!result.failed && !symptom && result.error <= 1) {
       accept(result, shortened && result.taken == h);
       if (shortened && result.taken == h && end() != target) {
