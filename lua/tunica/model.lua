@@ -6,6 +6,7 @@ local registry = require "tunica.registry"
 local rules = require "tunica.rules"
 local params = require "tunica.params"
 local plain = require "tunica.plain"
+local conditions = require "tunica.conditions"
 local op, fail = registry.op, registry.fail
 
 -- What belongs to each model; weak, so that the model itself shows only what is meant to be seen.
@@ -343,30 +344,6 @@ local function fire_events(my, now)
   return refreshed
 end
 
---- Conditions that have become true: their events happen now.
-local function test_conditions(my, now)
-  if #my.conditions == 0 then return end
-  refresh_derived(my)
-  for _, condition in ipairs(my.conditions) do
-    local holds = condition.test(now) and true or false
-    local becomes = holds and not condition.holds
-    condition.holds = holds
-    if becomes then condition.fn(now) end
-  end
-end
-
---- Whether a condition whose time is to be found has become true in the state that the tissue holds.
-local function any_becomes(my, time)
-  local any = false
-  for _, condition in ipairs(my.conditions) do any = any or condition.located and not condition.holds end
-  if not any then return false end
-  refresh_derived(my)
-  for _, condition in ipairs(my.conditions) do
-    if condition.located and not condition.holds and condition.test(time) then return true end
-  end
-  return false
-end
-
 --- Steps taken by the kernel; what goes wrong in them is the model's failure.
 local function stepping(my, work, ...)
   local ok, status = pcall(work, my.machine, ...)
@@ -382,40 +359,6 @@ local function step_towards(my, target, pause, deadline)
   return stepping(my, core.advance, values_of(my), target, pause, deadline and math.max(0, deadline - core.now()))
 end
 
---- Ends the last step where the first condition becomes true in it: found by bisection on the interpolated state; then
--- the step is taken anew, so that no error of interpolation stays. (Where the state so reached does not fulfil it yet,
--- a little later.)
-local function locate(my)
-  local machine = my.machine
-  local first, last = core.last_step(machine)
-  if not first or not any_becomes(my, last) then return end
-  local function holds_at(time)
-    core.show(machine, time)
-    return any_becomes(my, time)
-  end
-  local low, high = first, last
-  local near = 1e-9 * (last - first)
-  local ok, message = pcall(function()
-    if holds_at(first) then high = last return end  -- not because of this step
-    while high - low > near do
-      local middle = low + (high - low) / 2
-      if middle <= low or middle >= high then return end
-      if holds_at(middle) then high = middle else low = middle end
-    end
-  end)
-  core.show(machine, last)
-  if not ok then error(message, 0) end
-  local on = near
-  while high < last do
-    local status = stepping(my, core.retake, high)
-    if status ~= "done" then return status end
-    if any_becomes(my, high) then return end
-    on = 8 * on
-    high = high + on
-  end
-  if select(2, core.last_step(machine)) < last then return stepping(my, core.retake, last) end
-end
-
 --- Shows the state at `pause` if it lies within the last step (adaptive methods), after `from`.
 local function pause_inside(my, pause, from)
   if not pause or not my.adaptive then return false end
@@ -427,25 +370,26 @@ end
 
 --- One step and more, until something may have to happen. Returns a status that ends the run, or nil.
 local function go_on(my, model, o, deadline)
-  local conditions, before = #my.conditions > 0, model.time
+  local asked, before = #my.conditions > 0, model.time
   local target = math.max(next_event(my, o.to), before)
-  if conditions and select(4, core.machine_time(my.machine)) then  -- shown within a step whose end was not looked at
+  if asked and select(4, core.machine_time(my.machine)) then  -- shown within a step whose end was not looked at
+    core.look(my.machine, values_of(my))
     local _, last = core.last_step(my.machine)
     if last and last <= target + slack_of(my) then
       if pause_inside(my, o.pause, before) then return "paused" end
       core.show(my.machine, last)
-      test_conditions(my, last)
+      conditions.test(my, last, refresh_derived)
       return
     end
   end
   local status = step_towards(my, target, o.pause, deadline)
   if status == "interrupted" then return status end
-  if conditions then
-    if locate(my) == "interrupted" then return "interrupted" end
+  if asked then
+    if conditions.locate(my, refresh_derived, stepping) == "interrupted" then return "interrupted" end
     if pause_inside(my, o.pause, before) then return "paused" end
-    test_conditions(my, model.time)
+    conditions.test(my, model.time, refresh_derived)
   end
-  if status == "out of time" or status == "paused" and not conditions and my.adaptive then return status end
+  if status == "out of time" or status == "paused" and not asked and my.adaptive then return status end
 end
 
 --- See the operation below.
@@ -461,7 +405,7 @@ local function advance(model, o)
     prepare(my)
     if fired then verify_now_and_then(my) end
     if fired or model.steps == 0 then
-      test_conditions(my, now)
+      conditions.test(my, now, refresh_derived)
       prepare(my)
     end
     if now >= o.to - slack then break end

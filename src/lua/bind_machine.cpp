@@ -177,6 +177,17 @@ int advance(lua_State* L) {
 
 // Looking into the last step, for events whose time is to be found.
 
+/// look(machine, parameters): before looking into the last step at the start of a run. Structure and columns may
+/// differ.
+int look(lua_State* L) {
+  return guard(L, [&] {
+    const Entering entering(L);
+    Machine& m = object_at<Machine>(L, 1);
+    m.integrator->look(parameter_values(L, 2, m.system->equations()));
+    return 0;
+  });
+}
+
 /// last_step(machine) -> its begin and end, or nothing
 int last_step(lua_State* L) {
   return guard(L, [&] {
@@ -377,6 +388,7 @@ void register_machine(lua_State* L) {
                                 {"methods_of_solution", methods_of_solution},
                                 {"machine_method", machine_method},
                                 {"rules_changed", rules_changed},
+                                {"look", look},
                                 {"last_step", last_step},
                                 {"show", show},
                                 {"retake", retake},

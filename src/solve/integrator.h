@@ -43,6 +43,8 @@ class Integrator {
   Status advance(double target, std::optional<double> pause, const std::function<bool()>& out_of_time,
                  const CancelFlag* cancel, const std::vector<double>& parameters);
 
+  /// To be called before the last step is looked into, in a process that may only have loaded it.
+  void look(const std::vector<double>& parameters) { enter(parameters); }
   /// The last step, if it can still be looked into: nothing was changed or loaded since.
   struct Step {
     double begin, end;

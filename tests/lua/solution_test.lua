@@ -96,15 +96,18 @@ for _, way in ipairs(ways) do
     end
     return model, tissue
   end
-  local straight, paused, resumed = make(), make(), make()
+  local straight, paused, resumed, hopping = make(), make(), make(), make()
   straight:advance { to = 2 }
   local t, snapshot = 0, nil
   repeat
     t = t + 0.07
     repeat local status = paused:advance { to = 2, pause = t } until status == "done" or paused.time >= t - 1e-9
     if not snapshot and t > 0.6 then snapshot = paused:snapshot() end
+    hopping:restore(hopping:snapshot())
+    while hopping.time < paused.time - 1e-9 do hopping:advance { to = 2, pause = t } end
   until paused.time >= 2 - 1e-9
   check.equal(paused:hash(), straight:hash(), way.method .. " with pauses")
+  check.equal(hopping:hash(), straight:hash(), way.method .. " restored at each pause")
   resumed:restore(snapshot)
   resumed:advance { to = 2 }
   check.equal(resumed:hash(), straight:hash(), way.method .. " resumed")
