@@ -6,6 +6,7 @@ local registry = require "tunica.registry"
 local rules = require "tunica.rules"
 local params = require "tunica.params"
 local plain = require "tunica.plain"
+local conditions = require "tunica.conditions"
 local op, fail = registry.op, registry.fail
 
 -- What belongs to each model; weak, so that the model itself shows only what is meant to be seen.
@@ -28,8 +29,9 @@ function meta.__index(model, key)
   if key == "time" then return my.machine and (core.machine_time(my.machine)) or my.saved_time end
   if key == "steps" then return my.machine and select(2, core.machine_time(my.machine)) or 0 end
   if key == "about" then return methods.describe(model) end
+  if key == "cost" then return methods.cost_of(model) end
   if public[key] then return my[key] end
-  local names = { "time", "steps" }
+  local names = { "time", "steps", "cost" }
   for name in pairs(public) do names[#names + 1] = name end
   for name in pairs(methods) do names[#names + 1] = name end
   fail("a model has no '%s'%s", tostring(key), type(key) == "string" and core.did_you_mean(key, names) or "")
@@ -45,7 +47,15 @@ function meta.__tostring(model)
   return string.format("model %s: %d cells, %d rules, time %.6g", my.name or "", my.tissue:count(), #my.rules, model.time)
 end
 
-local methods_of_solution = { "euler", "heun" }
+local ways, names_of_methods, titles = {}, {}, {}
+for i, way in ipairs(core.methods_of_solution()) do
+  ways[way.name], names_of_methods[i] = way, way.name
+  titles[i] = string.format("%s: %s, order %d%s", way.name, way.title, way.order, way.adaptive and ", adaptive" or "")
+end
+local method_doc = "method of integration (" .. table.concat(titles, "; ") .. ")"
+local dt_doc = "step; of adaptive methods the longest, and may be left out. rkc2 with dt and no tolerance takes fixed steps"
+local tolerance_doc = "adaptive methods: error allowed in one step, relative to each value and its column's root mean square"
+local default_tolerance = 1e-6
 
 local header = [[local tunica = require "tunica"
 local tissue = tunica.ring { 50 }
@@ -55,13 +65,27 @@ local model = tunica.model { tissue = tissue, dt = .01 }
 local diffusion = header .. [[model:rate(function(c, d) d.auxin = c:sum(function(n) return n.auxin - c.auxin end) end)
 ]]
 
+--- Whether the tolerance decides the steps.
+local function adaptive(o)
+  local way = ways[o.method]
+  return way.adaptive and not (way.either and o.dt and not o.tolerance)
+end
+
+--- Methods with fixed steps need one.
+local function check_solution(operation, o)
+  if o.dt == nil and not ways[o.method].adaptive then
+    fail("%s: 'dt' is missing: the method %s takes fixed steps; 'dt' must be a number greater than 0", operation, o.method)
+  end
+end
+
 op { name = "tunica.model", kind = "named", returns = "a model",
   doc = "A model of a tissue: to be given rules (derive, rate, flux), events (every, at, when), views and a report.",
   args = {
     { name = "tissue", type = "tissue", required = true, doc = "the tissue" },
     { name = "params", type = "any", doc = "the table that tunica.params gave" },
-    { name = "dt", type = "number", above = 0, required = true, unit = "time", doc = "longest step" },
-    { name = "method", type = "string", choices = methods_of_solution, default = "euler", doc = "method of integration" },
+    { name = "dt", type = "number", above = 0, unit = "time", doc = dt_doc },
+    { name = "method", type = "string", choices = names_of_methods, default = "euler", doc = method_doc },
+    { name = "tolerance", type = "number", above = 0, doc = tolerance_doc .. "; 1e-6 if not given" },
     { name = "threads", type = "integer", min = 1, max = 64, default = 1, doc = "threads for tissues of 5,000 cells and more; the result does not depend on it" },
     { name = "stop", type = "number", min = 0, unit = "time", doc = "when a batch run ends, unless --until says so" },
     { name = "signed", type = "list", of = "string", default = {}, doc = "columns that may become negative" },
@@ -71,10 +95,11 @@ op { name = "tunica.model", kind = "named", returns = "a model",
     if o.params ~= nil and not params.is(o.params) then
       fail("tunica.model: 'params' must be what tunica.params gave, came %s", core.describe(o.params))
     end
+    check_solution("tunica.model", o)
     local model = setmetatable({}, meta)
-    inside[model] = { tissue = o.tissue, params = o.params or params.current(), dt = o.dt, method = o.method, threads = o.threads,
-      signed = o.signed, stop = o.stop, rules = {}, events = {}, conditions = {}, views = {}, reports = {}, saved_time = 0, stale = true, warnings = {},
-      where = registry.where() }
+    inside[model] = { tissue = o.tissue, params = o.params or params.current(), dt = o.dt, method = o.method, tolerance = o.tolerance, threads = o.threads,
+      adaptive = adaptive(o), step = o.dt, spent = {}, where = registry.where(),
+      signed = o.signed, stop = o.stop, rules = {}, events = {}, conditions = {}, views = {}, reports = {}, saved_time = 0, stale = true, warnings = {} }
     return model
   end }
 
@@ -128,7 +153,7 @@ local most_in_a_step = 1000
 
 op { name = "model:every", changes = true, fn = function(model, interval, fn)
     local dt = inside[model].dt
-    if dt < math.huge and interval < dt / most_in_a_step then
+    if dt and interval < dt / most_in_a_step then
       fail("model:every: the interval %.6g is far below the model's step dt = %.6g: more than %d events in a step", interval, dt,
         most_in_a_step)
     end
@@ -144,11 +169,14 @@ op { name = "model:at", changes = true, fn = function(model, time, fn) table.ins
     { name = "event", type = "function", required = true, doc = "function(t)" } },
   doc = "Something that happens once.", example = diffusion .. "model:at(2, function() print 'now' end)" }
 op { name = "model:when", changes = true,
-  args = { { name = "condition", type = "function", required = true, doc = "function(t): true or false; asked after each step" },
-    { name = "event", type = "function", required = true, doc = "function(t)" } },
-  doc = "Something that happens each time a condition becomes true.",
+  args = { { name = "condition", type = "function", required = true, doc = "function(t): true or false; it must change nothing" },
+    { name = "event", type = "function", required = true, doc = "function(t)" },
+    { name = "located", type = "boolean", default = true, doc = "false: it happens at the end of the step, and changes no step; for what only watches" } },
+  doc = "Something that happens each time a condition becomes true. It is asked at the start, after events, and after each step; when it has become true in a step, the step is taken anew to end where it did.",
   example = diffusion .. "model:when(function() return tissue:max 'auxin' < 1.01 end, function(t) print(t) end)",
-  fn = function(model, condition, fn) table.insert(inside[model].conditions, { test = condition, fn = fn, holds = false }) end }
+  fn = function(model, condition, fn, located)
+    table.insert(inside[model].conditions, { test = condition, fn = fn, holds = false, located = located })
+  end }
 
 -- Views and report -------------------------------------------------------------------------------------------------------
 
@@ -234,7 +262,7 @@ local function build(my)
       r.index = index
     end
   end
-  local machine = core.machine(set, my.method, my.dt, my.threads, my.signed)
+  local machine = core.machine(set, my.method, my.dt, my.tolerance, my.threads, my.signed)
   check_signed(my, machine)
   return set, machine
 end
@@ -254,12 +282,24 @@ local function verify(my, set, machine)
   return true
 end
 
+--- Adds what the machine has cost to what the model has. Returns the form of the sums too.
+local function settle(my)
+  if not my.machine then return my.spent end
+  local cost, form = core.take_cost(my.machine)
+  for name, value in pairs(cost) do my.spent[name] = (my.spent[name] or 0) + value end
+  return my.spent, form
+end
+
 --- Binds the rules anew until those that are traced agree with direct evaluation.
 local function bind(my)
   local old = my.machine
+  settle(my)
   repeat
     my.set, my.machine = build(my)
-    if old then core.machine_load(my.machine, core.machine_save(old)) end
+    if old then
+      core.machine_load(my.machine, core.machine_save(old))
+      core.rules_changed(my.machine)
+    end
   until verify(my, my.set, my.machine)
 end
 
@@ -337,9 +377,12 @@ local function next_event(my, limit)
   return earliest
 end
 
+--- Times nearer than this are the same.
+local function slack_of(my) return (select(3, core.machine_time(my.machine))) end
+
 --- True if any was due.
 local function fire_events(my, now)
-  local slack, refreshed = 1e-9 * my.dt, false
+  local slack, refreshed = slack_of(my), false
   for _, e in ipairs(my.events) do
     local time = due(e)
     if time and time <= now + slack then
@@ -352,21 +395,42 @@ local function fire_events(my, now)
   return refreshed
 end
 
-local function test_conditions(my, now)
-  if #my.conditions == 0 then return end
-  refresh_derived(my)
-  for _, condition in ipairs(my.conditions) do
-    local holds = condition.test(now) and true or false
-    local becomes = holds and not condition.holds
-    condition.holds = holds
-    if becomes then condition.fn(now) end
-  end
-end
-
 local function step_towards(my, target, pause, deadline)
   if #my.conditions > 0 then pause = -1e300 end
-  local seconds = deadline and math.max(0, deadline - core.now())
-  return with_machine(my, core.advance, values_of(my), target, pause, seconds)
+  return with_machine(my, core.advance, values_of(my), target, pause, deadline and math.max(0, deadline - core.now()))
+end
+
+--- Shows the state at `pause` if it lies within the last step (adaptive methods), after `from`.
+local function pause_inside(my, pause, from)
+  if not pause or not my.adaptive then return false end
+  local first, last = core.last_step(my.machine)
+  if not first or not (pause > math.max(first, from) and pause < last - slack_of(my)) then return false end
+  core.show(my.machine, pause)
+  return true
+end
+
+--- One step and more, until something may have to happen. Returns a status that ends the run, or nil.
+local function go_on(my, model, o, deadline)
+  local asked, before = #my.conditions > 0, model.time
+  local target = math.max(next_event(my, o.to), before)
+  if asked and select(4, core.machine_time(my.machine)) then  -- shown within a step whose end was not looked at
+    core.look(my.machine, values_of(my))
+    local _, last = core.last_step(my.machine)
+    if last and last <= target + slack_of(my) then
+      if pause_inside(my, o.pause, before) then return "paused" end
+      core.show(my.machine, last)
+      conditions.test(my, last, refresh_derived)
+      return
+    end
+  end
+  local status = step_towards(my, target, o.pause, deadline)
+  if status == "interrupted" then return status end
+  if asked then
+    if conditions.locate(my, refresh_derived, with_machine) == "interrupted" then return "interrupted" end
+    if pause_inside(my, o.pause, before) then return "paused" end
+    conditions.test(my, model.time, refresh_derived)
+  end
+  if status == "out of time" or status == "paused" and not asked and my.adaptive then return status end
 end
 
 --- See the operation below.
@@ -377,21 +441,23 @@ local function advance(model, o)
   if my.bound_anew then refresh_derived(my) end  -- binding does not judge the values
   my.bound_anew = false
   local deadline = o.seconds and core.now() + o.seconds
-  local slack, stepped = 1e-9 * my.dt, false
+  local stepped = false
   while true do
-    local now = model.time
+    local now, slack = model.time, slack_of(my)
     local fired = fire_events(my, now)
     prepare(my)
     if fired then verify_now_and_then(my) end
+    if fired or model.steps == 0 then
+      conditions.test(my, now, refresh_derived)
+      prepare(my)
+    end
     if now >= o.to - slack then break end
     if o.pause and stepped and now >= o.pause - slack then return "paused" end
     if core.cancelled() then return "interrupted" end
-    local status = step_towards(my, math.max(next_event(my, o.to), now), o.pause, deadline)
+    local status = go_on(my, model, o, deadline)
     stepped = true
-    if status == "interrupted" then return status end
-    test_conditions(my, model.time)
     if can_know_more(my) then prepare(my) end
-    if status == "out of time" then return status end
+    if status then return status end
     if deadline and core.now() >= deadline and model.time < o.to - slack then
       return "out of time"
     end
@@ -403,7 +469,7 @@ end
 op { name = "model:advance", kind = "named", returns = "'done', 'paused', 'out of time' or 'interrupted'",
   doc = "Runs the model to a time, events included. How often it pauses changes no step.",
   args = { { name = "to", type = "number", required = true, position = 1, unit = "time", doc = "until when" },
-    { name = "pause", type = "number", infinite = true, unit = "time", doc = "stop after the first step that ends then or later" },
+    { name = "pause", type = "number", infinite = true, unit = "time", doc = "stop then (with fixed steps: after the first that ends then or later)" },
     { name = "seconds", type = "number", min = 0, unit = "s", doc = "stop after so much time on the clock" } },
   example = diffusion .. "model:advance { to = 1 } print(model.time)",
   fn = function(model, o)
@@ -466,9 +532,53 @@ op { name = "model:restore", changes = true, args = { { name = "snapshot", type 
     plain.refill(my.tissue.data, script.data)
     plain.set_upvalues(functions_of(my), script.upvalues)
     plain.set_globals(script.globals)
+    settle(my)
+    my.spent = {}
     core.machine_load(my.machine, parts.machine)
-    prepare(my)
+    prepare(my)  -- may bind the rules anew
+    core.machine_load(my.machine, parts.machine)
+    refresh_derived(my)
   end }
+
+-- How it is solved ---------------------------------------------------------------------------------------------------------
+
+op { name = "model:solve_with", kind = "named",
+  doc = "Changes how the model is solved from now on; state and time stay. A new method begins with its own dt (fixed steps: the old one, unless given) and tolerance.",
+  args = { { name = "method", type = "string", choices = names_of_methods, doc = method_doc },
+    { name = "dt", type = "number", above = 0, unit = "time", doc = dt_doc },
+    { name = "tolerance", type = "number", above = 0, doc = tolerance_doc } },
+  example = diffusion .. "model:advance(1) model:solve_with { method = 'rkc2', tolerance = 1e-5 } model:advance(2) print(model.cost.evaluations)",
+  fn = function(model, o)
+    local my = inside[model]
+    if my.busy then fail("model:solve_with cannot be called in a rule") end
+    local method = o.method or my.method
+    local solution = { method = method, dt = o.dt, tolerance = o.tolerance }
+    if not o.method then solution.dt = o.dt or my.dt
+    elseif not ways[method].adaptive then solution.dt = o.dt or my.step end
+    if not o.method then solution.tolerance = o.tolerance or my.tolerance end
+    check_solution("model:solve_with", solution)
+    if my.machine then
+      settle(my)
+      core.machine_method(my.machine, solution.method, solution.dt, solution.tolerance)
+    end
+    my.method, my.dt, my.tolerance, my.adaptive = method, solution.dt, solution.tolerance, adaptive(solution)
+    my.step = my.dt or my.step
+    my.spent = {}
+  end }
+
+--- The settings of the method: for a record from which a run is to go on.
+function methods.solution(model)
+  local my = inside[model]
+  return { method = my.method, dt = my.dt, tolerance = my.tolerance }
+end
+
+--- What the model has cost since it was made, restored or given a method.
+function methods.cost_of(model)
+  local copy = { seconds = 0, steps = 0, rejected = 0, evaluations = 0, jacobians = 0, factorizations = 0, newton_iterations = 0,
+    linear_iterations = 0, cell_steps = 0 }
+  for name, value in pairs(settle(inside[model])) do copy[name] = value end
+  return copy
+end
 
 op { name = "model:hash", returns = "16 hexadecimal digits", doc = "A fingerprint of everything that changes; equal states have equal ones.",
   example = diffusion .. "print(model:hash())", fn = function(model) return core.hash(model:snapshot()) end }
@@ -481,9 +591,14 @@ function methods.describe(model)
   for i, r in ipairs(my.rules) do
     listed[i] = { rule = r.what, element = r.kind, where = r.where, traced = not r.direct, reason = r.direct or nil }
   end
-  local seconds, cell_steps, form = core.machine_cost(my.machine)
-  return { method = my.method, dt = my.dt, why = "named by the model", threads = my.threads, rules = listed, warnings = my.warnings,
-    sums = form, cost = { seconds = seconds, cell_steps = cell_steps, ns_per_cell_step = cell_steps > 0 and seconds / cell_steps * 1e9 or nil } }
+  local _, form = settle(my)
+  local counts = methods.cost_of(model)
+  local seconds, cell_steps = counts.seconds, counts.cell_steps
+  counts.seconds = nil
+  local way = ways[my.method]
+  return { method = my.method, dt = my.dt, tolerance = my.adaptive and (my.tolerance or default_tolerance) or nil, title = way.title,
+    order = way.order, why = "named by the model", threads = my.threads, rules = listed, warnings = my.warnings, sums = form, counts = counts,
+    cost = { seconds = seconds, cell_steps = cell_steps, ns_per_cell_step = cell_steps > 0 and seconds / cell_steps * 1e9 or nil } }
 end
 
 return { is_model = is_model, inside = inside }

@@ -44,6 +44,12 @@ end
 
 -- State ------------------------------------------------------------------------------------------------------------
 
+--- How the model is solved, if it can say so: an event may have changed it (model:solve_with).
+local function solution_of(model)
+  local ok, solution = pcall(function() return model:solution() end)
+  return ok and solution or nil
+end
+
 --- Everything needed to continue from here. Cheap in lines of the series: only their number.
 local function take_state(self)
   return {
@@ -52,7 +58,7 @@ local function take_state(self)
     series = self.series and self.series:mark(),
     time = self.model.time,
     about = { counts = outputs.counts(self.outputs), work = self.work, wall = self.wall + core.now() - self.started,
-      time = self.model.time, steps = self.model.steps },
+      time = self.model.time, steps = self.model.steps, solution = solution_of(self.model) },
   }
 end
 
@@ -66,6 +72,8 @@ end
 
 local function restore_state(self, sections)
   local about = core.decode(sections.about)
+  local now = solution_of(self.model)
+  if now and about.solution and core.encode(now) ~= core.encode(about.solution) then self.model:solve_with(about.solution) end
   self.model:restore(sections.model)
   core.random_state(sections.random)
   outputs.set_counts(self.outputs, about.counts)

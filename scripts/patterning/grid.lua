@@ -61,7 +61,7 @@ local function watch(name, cells)
   end
   model:when(strays, function(t)
     if onset[name] < 0 then onset[name] = t end
-  end)
+  end, false)
 end
 watch("border", border)
 watch("centre", centre)

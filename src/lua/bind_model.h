@@ -72,5 +72,7 @@ std::vector<double> parameter_values(lua_State* L, int at, const Equations& equa
 
 /// Adds the functions that trace rules to the module on top of the stack.
 void register_rules(lua_State* L);
+/// Adds the functions that bind rules to a method and run them.
+void register_machine(lua_State* L);
 
 }  // namespace tunica::lua

@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/aligned.h"
@@ -66,6 +67,9 @@ class System {
   const Layout& layout() const { return *layout_; }
 
   Equations& equations() { return *equations_; }
+  /// Heeds another flag from now on, or none; returns the one before.
+  const CancelFlag* heed(const CancelFlag* flag) { return std::exchange(options_.cancel, flag); }
+
   const Equations& equations() const { return *equations_; }
   Tissue& tissue() { return *tissue_; }
   const Tissue& tissue() const { return *tissue_; }

@@ -23,7 +23,7 @@ Integrator::Integrator(std::shared_ptr<System> system, std::unique_ptr<Stepper> 
 }
 
 double Integrator::slack() const {
-  if (!adaptive()) return 1e-9 * dt_;
+  if (!adaptive()) return std::max(1e-9 * dt_, 4e-16 * std::fabs(time()));
   return 1e-12 * std::max(std::fabs(time()), longest_);
 }
 
@@ -78,7 +78,7 @@ void Integrator::enter(const std::vector<double>& parameters) {
   }
   if (!inside_) system_->read_state(y_.data());
   have_last_ = unchanged && inside_;
-  if (const auto symptom = watch_.begin(*system_, y_.data()))
+  if (const auto symptom = watch_.begin(*system_, y_.data(), margin()))
     refuse(*symptom, time(), "it was so before the step; look at what set it");
   if (!unchanged) stepper_->restart(*system_, end(), y_.data());
 }
@@ -126,11 +126,19 @@ Integrator::Status Integrator::run_fixed(const Run& run) {
     const double next = origin_ + static_cast<double>(index_ + 1) * dt_;
     if (next > run.target + near) {
       fixed_step(run.target - time(), run.target);
+      between_.reset();
       origin_ = run.target;
       index_ = 0;
       return Status::reached;
     }
-    fixed_step(dt_, next);
+    if (between_ && next - *between_ <= near) {  // nothing is left of the step
+      between_.reset();
+      ++index_;
+      if (next >= run.target - near) return Status::reached;
+      continue;
+    }
+    fixed_step(between_ ? next - *between_ : dt_, next);
+    between_.reset();
     ++index_;
     if (time() >= run.target - near) return Status::reached;
     if (run.pause && time() >= *run.pause - near) return Status::paused;
@@ -140,10 +148,11 @@ Integrator::Status Integrator::run_fixed(const Run& run) {
 
 void Integrator::fixed_step(double h, double end) {
   const double begin = time();
+  begun_ = {origin_, index_, between_};
   have_last_ = have_slopes_ = false;
   const StepResult result = stepper_->step(*system_, begin, y_.data(), h, y_new_.data());
   if (result.failed) refuse_method(result, end);
-  if (const auto symptom = watch_.state(*system_, y_.data(), y_new_.data(), result.flags, 1e-9))
+  if (const auto symptom = watch_.state(*system_, y_.data(), y_new_.data(), result.flags, margin()))
     refuse(*symptom, end,
            std::string(symptom->kind) == "negative"
                ? "a concentration cannot be; try a smaller dt. If it may be negative, list it in signed = { ... } of "
@@ -166,7 +175,12 @@ std::string Integrator::explanation() {
     AlignedBuffer rate, vector;
     rate.resize(system_->state_size());
     system_->rates(time(), y_.data(), rate.data());
-    const SpectralRadius found = spectral_radius(*system_, time(), y_.data(), rate.data(), vector, 300);
+    vector.resize(system_->state_size());  // the change in the bad step points along the mode that is unstable
+    for (size_t i = 0; i < vector.size(); ++i) {
+      const double change = y_new_.data()[i] - y_.data()[i];
+      vector.data()[i] = std::isfinite(change) ? change : 0;
+    }
+    const SpectralRadius found = spectral_radius(*system_, time(), y_.data(), rate.data(), vector, 1e-4, 500);
     const double limit = stepper_->stability() / found.radius;
     if (!(limit > 0) || !std::isfinite(limit) || !(dt_ > 0.94 * limit)) return "";
     return fmt::format(". dt = {:.4g} is {} this method's limit of about {:.3g} here", dt_,
@@ -233,6 +247,7 @@ void Integrator::refuse_method(const StepResult& result, double time) {
 void Integrator::continue_from(double time, uint64_t steps) {
   origin_ = time;
   index_ = 0;
+  between_.reset();
   steps_ = steps;
   inside_ = have_last_ = false;
   seen_.clear();
@@ -243,9 +258,10 @@ void Integrator::save(ByteWriter& out) const {
   out.put(index_);
   out.put(steps_);
   out.put(dt_);
-  if (!stepper_->remembers()) return;
+  if (!stepper_->remembers() && !between_) return;
   out.text(stepper_->name());
   out.put(time());
+  out.put(static_cast<uint8_t>(between_.has_value()));
   out.put(next_);
   out.put(error_before_);
   out.put(longest_);
@@ -277,6 +293,7 @@ void Integrator::load(ByteReader& in) {
   continue_from(origin, steps);
   index_ = index;
   if (method.empty()) return;
+  if (in.get<uint8_t>() != 0) between_ = shown;
   next_ = in.get<double>();
   error_before_ = in.get<double>();
   longest_ = in.get<double>();

@@ -16,10 +16,11 @@ namespace tunica {
 /// Takes a model through time with one method, watching each step.
 ///
 /// Fixed steps lie on a grid of multiples of `dt`; a target (an event) off the grid is met by one shorter step, from
-/// which a new grid begins. Adaptive steps are as long as the tolerance and `dt` allow; the one that would pass the
-/// target is cut to meet it. Where output is wanted, or how often a run is interrupted, changes no step: fixed steps
-/// pause at the end of a step, adaptive ones show the state interpolated to the moment asked for and go on from the
-/// real one, unless what the tissue holds was changed meanwhile.
+/// which a new grid begins; a step taken anew to end within itself is followed by one that ends on the grid again.
+/// Adaptive steps are as long as the tolerance and `dt` allow; the one that would pass the target is cut to meet it.
+/// Where output is wanted, or how often a run is interrupted, changes no step: fixed steps pause at the end of a step,
+/// adaptive ones show the state interpolated to the moment asked for and go on from the real one, unless what the
+/// tissue holds was changed meanwhile.
 class Integrator {
  public:
   static constexpr double unlimited = std::numeric_limits<double>::infinity();
@@ -45,7 +46,8 @@ class Integrator {
   /// Writes the derived columns for the state that the tissue holds. Errors: StepFailed, if `checked` and a value is
   /// not finite. Steps do not ask: what a rate reads shows in the state, the rest when someone looks.
   void derive(const std::vector<double>& parameters, bool checked);
-
+  /// To be called before the last step is looked into, in a process that may only have loaded it.
+  void look(const std::vector<double>& parameters) { enter(parameters); }
   /// The last step, if it can still be looked into: nothing was changed or loaded since.
   struct Step {
     double begin, end;
@@ -53,8 +55,11 @@ class Integrator {
   std::optional<Step> last_step() const;
   /// Lets the tissue hold the state at a time within the last step, interpolated; time() is then this one.
   void show(double time);
-  /// Takes the last step back and goes from its start to `time` within it, exactly: for an event that is due there.
-  void retake(double time, const CancelFlag* cancel);
+  /// Takes the last step back and goes from its start to `time`, exactly: for an event that is due there. Heeds no
+  /// cancel flag.
+  Status retake(double time);
+  /// Adaptive steps, with a state shown within the last one: from there to its end.
+  bool inside_last_step() const { return inside_; }
 
   void allow_negative(std::vector<std::string> columns) { watch_.allow_negative(std::move(columns)); }
   /// What the rules say has changed: what the method keeps is to be forgotten.
@@ -68,7 +73,11 @@ class Integrator {
 
  private:
   struct Run;  // arguments of one advance()
-  double end() const { return index_ == 0 ? origin_ : origin_ + static_cast<double>(index_) * dt_; }
+  double end() const {
+    if (between_) return *between_;
+    return index_ == 0 ? origin_ : origin_ + static_cast<double>(index_) * dt_;
+  }
+  double margin() const { return adaptive() && tolerance_ > 1e-9 ? tolerance_ : 1e-9; }
   AlignedBuffer& before() { return adaptive() ? y_before_ : y_new_; }
   void enter(const std::vector<double>& parameters);
   void leave();
@@ -83,6 +92,7 @@ class Integrator {
   void adaptive_step(double target);
   void accept(const StepResult& result, bool shortened);
   void reject(const StepResult& result, const std::optional<Watch::Symptom>& symptom);
+  Watch::Symptom bad_rate(double time);
   double first_length();
   void interpolate(double time, double* y);
   void check_derived(int column);
@@ -101,6 +111,12 @@ class Integrator {
   AlignedBuffer y_before_;   ///< adaptive: the same
   Watch watch_;
 
+  std::optional<double> between_;  ///< fixed: the time, if it lies within step index_ + 1 of the grid
+  struct {
+    double origin;
+    uint64_t index;
+    std::optional<double> between;
+  } begun_{};               ///< fixed: where the last step began, on the grid
   double begin_ = 0;        ///< of the last step
   bool have_last_ = false;  ///< the last step can be looked into
   bool inside_ = false;     ///< the tissue holds the state at shown_, within the last step

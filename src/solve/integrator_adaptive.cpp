@@ -13,6 +13,18 @@ namespace {
 /// A step shorter than this, relative to the time or to the longest step tried, cannot be told from none.
 constexpr double least_step = 1e-12;
 
+/// Short work that is not to be broken off: what it is part of could not be gone on with in the same bits.
+class Uninterrupted {
+ public:
+  explicit Uninterrupted(System& system) : system_(system), before_(system.heed(nullptr)) {}
+  ~Uninterrupted() { system_.heed(before_); }
+  Uninterrupted(const Uninterrupted&) = delete;
+
+ private:
+  System& system_;
+  const CancelFlag* before_;
+};
+
 /// The length h for which t + h is the target, to the last bit where there is one.
 double exact_length(double t, double target) {
   const double h = target - t;
@@ -61,11 +73,16 @@ std::optional<Integrator::Status> Integrator::within_last_step(const Run& run) {
 /// The state before the last step.
 void Integrator::back() {
   std::swap(y_, before());
-  origin_ = begin_;
-  index_ = 0;
+  if (adaptive()) {
+    origin_ = begin_;
+  } else {
+    origin_ = begun_.origin;
+    index_ = begun_.index;
+    between_ = begun_.between;
+  }
   --steps_;
   inside_ = have_last_ = have_slopes_ = false;
-  stepper_->restart(*system_, origin_, y_.data());
+  stepper_->restart(*system_, begin_, y_.data());
 }
 
 void Integrator::adaptive_step(double target) {
@@ -79,8 +96,7 @@ void Integrator::adaptive_step(double target) {
     longest_ = std::max(longest_, h);
     const StepResult result = stepper_->step(*system_, t, y_.data(), h, y_new_.data());
     std::optional<Watch::Symptom> symptom;
-    if (!result.failed)
-      symptom = watch_.state(*system_, y_.data(), y_new_.data(), result.flags, std::max(1e-9, tolerance_));
+    if (!result.failed) symptom = watch_.state(*system_, y_.data(), y_new_.data(), result.flags, margin());
     if (!result.failed && !symptom && result.error <= 1) {
       accept(result, shortened && result.taken == h);
       if (shortened && result.taken == h && end() != target) {
@@ -128,8 +144,11 @@ void Integrator::reject(const StepResult& result, const std::optional<Watch::Sym
   if (next_ > least_step * std::max(std::fabs(end()), longest_)) return;
   next_ = 0;
   if (result.failed) refuse_method(result, end());
-  Watch::Symptom where = symptom ? *symptom : Watch::most_changed(*system_, "step size", y_.data(), y_new_.data());
-  const std::string why = std::string(where.kind) == "not finite" ? "it is then not finite"
+  Watch::Symptom where = symptom ? *symptom
+                         : !std::isfinite(result.error)
+                             ? bad_rate(end() + tried)
+                             : Watch::most_changed(*system_, "step size", y_.data(), y_new_.data());
+  const std::string why = std::string(where.kind) == "not finite" ? "it, or its rate, is then not finite"
                           : symptom                               ? "it is then negative"
                                                                   : "the error is then too large";
   where.kind = "step size";
@@ -139,6 +158,19 @@ void Integrator::reject(const StepResult& result, const std::optional<Watch::Sym
                      tried, why,
                      symptom ? "; if it may be negative, list it in signed = { ... } of tunica.model"
                              : "; a larger tolerance may help"));
+}
+
+/// Where the rates of the state tried are not finite.
+Watch::Symptom Integrator::bad_rate(double time) {
+  AlignedBuffer rate;
+  rate.resize(system_->state_size());
+  system_->rates(time, y_new_.data(), rate.data());
+  for (size_t k = 0; k < system_->state().size(); ++k) {
+    const System::StateColumn& s = system_->state()[k];
+    for (Index i = 0; i < s.count; ++i)
+      if (!std::isfinite(rate.data()[s.offset + i])) return {"not finite", k, i, y_new_.data()[s.offset + i]};
+  }
+  return Watch::most_changed(*system_, "step size", y_.data(), y_new_.data());
 }
 
 /// The length of the very first step (Hairer, Norsett and Wanner I, II.4).
@@ -196,6 +228,7 @@ void Integrator::show(double time) {
     if (stepper_->remembers()) seen_ = fingerprint();
     return;
   }
+  const Uninterrupted whole(*system_);
   AlignedBuffer state;
   state.resize(system_->state_size());
   interpolate(time, state.data());
@@ -205,13 +238,15 @@ void Integrator::show(double time) {
   if (stepper_->remembers()) seen_ = fingerprint();
 }
 
-void Integrator::retake(double time, const CancelFlag* cancel) {
-  if (!have_last_ || !(time > begin_ && time <= end())) fail("internal: time {} is not in the last step", time);
+Integrator::Status Integrator::retake(double time) {
+  if (!have_last_ || !(time > begin_)) fail("internal: time {} is not after the start of the last step", time);
+  const Uninterrupted whole(*system_);
   back();
-  guarded([&] {
-    const std::function<bool()> never;
-    const Run arguments{time, {}, never, cancel};
-    return adaptive() ? run_adaptive(arguments) : run_fixed(arguments);
+  return guarded([&] {
+    if (adaptive()) return run_adaptive({time, {}, {}, nullptr});
+    fixed_step(time - begin_, time);
+    between_ = time;
+    return Status::reached;
   });
 }
 

@@ -9,7 +9,7 @@ namespace tunica {
 struct Integrator::Run {
   double target;
   std::optional<double> pause;
-  const std::function<bool()>& out_of_time;
+  std::function<bool()> out_of_time;
   const CancelFlag* cancel;
 };
 

@@ -35,7 +35,7 @@ void random_start(const System& system, AlignedBuffer& vector) {
 }  // namespace
 
 SpectralRadius spectral_radius(System& system, double t, const double* y, const double* rate, AlignedBuffer& vector,
-                               int most_iterations) {
+                               double accuracy, int most_iterations) {
   const size_t size = system.state_size();
   SpectralRadius found;
   double* v = vector.data();
@@ -60,7 +60,7 @@ SpectralRadius spectral_radius(System& system, double t, const double* y, const 
     const double change = length(size, [&](size_t i) { return f[i] - rate[i]; });
     found.radius = change / distance;
     if (!(change > 0) || !std::isfinite(change)) break;  // f does not depend on y, or is not finite
-    if (iteration >= 2 && std::fabs(found.radius - previous) <= 0.01 * found.radius) {
+    if (iteration >= 2 && std::fabs(found.radius - previous) <= accuracy * found.radius) {
       found.converged = true;
       break;
     }

@@ -30,7 +30,7 @@ uint8_t look(const double* values, size_t count) {
 
 }  // namespace
 
-std::optional<Watch::Symptom> Watch::begin(const System& system, const double* y) {
+std::optional<Watch::Symptom> Watch::begin(const System& system, const double* y, double margin) {
   alternations_ = 0;
   watch_negative_.assign(system.state().size(), 0);
   for (size_t k = 0; k < watch_negative_.size(); ++k) {
@@ -39,7 +39,9 @@ std::optional<Watch::Symptom> Watch::begin(const System& system, const double* y
     for (Index i = 0; i < s.count; ++i)
       if (!std::isfinite(first[i])) return Symptom{"not finite", k, i, first[i]};
     const bool meant = std::find(signed_.begin(), signed_.end(), s.name) != signed_.end();
-    watch_negative_[k] = !meant && std::none_of(first, first + s.count, [](double v) { return v < 0; });
+    if (s.count == 0) continue;
+    const auto [least, largest] = std::minmax_element(first, first + s.count);
+    watch_negative_[k] = !meant && *least >= -10 * margin * std::max(*largest, 0.0);
   }
   return {};
 }

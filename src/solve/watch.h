@@ -39,8 +39,9 @@ class Watch {
 
   /// Columns in which negative values are meant (displacements); all others that begin non-negative must stay so.
   void allow_negative(std::vector<std::string> columns) { signed_ = std::move(columns); }
-  /// A new beginning from state y. A symptom if y itself is not finite.
-  std::optional<Symptom> begin(const System& system, const double* y);
+  /// A new beginning from state y. A symptom if y itself is not finite. `margin` as below: values a little further
+  /// below zero than steps may bring them are taken for meant, so that a pause does not change what is refused.
+  std::optional<Symptom> begin(const System& system, const double* y, double margin);
   /// Not finite or negative. `flags` as in StepResult, or null. `margin`: how far below zero a value may be, relative
   /// to the largest in its column before.
   std::optional<Symptom> state(const System& system, const double* y, const double* y_new,

@@ -20,7 +20,7 @@ local function must_fail(model, ...)
   return message
 end
 
-for _, method in ipairs { "euler", "heun" } do
+for _, method in ipairs { "euler", "heun", "rk4" } do
   -- 1 / (5 - t) grows without bound at t = 5; sqrt of a negative number is not a number
   local model, tissue = model_with(function(c, d, t) d.auxin = math.sqrt(4.95 - t) end, { method = method })
   must_fail(model, "auxin became", "nan in cell 1", method == "euler" and "time 5.1" or "time 5 ")
@@ -34,6 +34,24 @@ for _, method in ipairs { "euler", "heun" } do
   assert(free:advance { to = 3 } == "done" and math.abs(t:sum "auxin" - 20 * -2) < 1e-9)
 end
 
+-- adaptive methods try shorter steps, and say so when none is short enough
+for _, method in ipairs { "bs32", "dp54", "rkc2" } do
+  local adaptive = { method = method, tolerance = 1e-6 }
+  local model, tissue = model_with(function(c, d, t) d.auxin = math.sqrt(4.95 - t) end, adaptive)
+  must_fail(model, "auxin (now", "time 4.9", "no step is short enough", "not finite")
+  assert(model.failure.kind == "step size" and model.failure.column == "auxin")
+  for c in tissue:cells() do assert(c.auxin == c.auxin and c.auxin > 1, "the last good state is kept") end
+  assert(model.time > 4.9 and model.time <= 4.95)
+  local sinking = function(c, d) d.auxin = -1 end
+  must_fail(model_with(sinking, adaptive), "it is then negative", "signed", "time 1")
+  local free, t = model_with(sinking, { method = method, tolerance = 1e-6, signed = { "auxin" } })
+  assert(free:advance { to = 3 } == "done" and math.abs(t:sum "auxin" - 20 * -2) < 1e-9)
+  -- a solution that runs away: 1 / (1 - t)
+  model = model_with(function(c, d) d.auxin = c.auxin ^ 2 end, adaptive)
+  must_fail(model, "auxin", "no step is short enough")
+  assert(math.abs(model.time - 1) < 1e-3, model.time)
+end
+
 -- a value that was wrong before the step
 local model, tissue = model_with(function(c, d) d.auxin = 0 end)
 assert(not pcall(function() tissue:find(3).auxin = 0 / 0 end), "a column takes no NaN from a script")
@@ -44,7 +62,7 @@ assert(must_fail(model, "cell 8"):find "inf")
 
 -- forward Euler beyond its limit: the change turns round at every step and grows
 local model, tissue = model_with(function(c, d) d.auxin = 30 * (2 - c.auxin) end, { signed = { "auxin" } })
-must_fail(model, "auxin")
+must_fail(model, "auxin", "above this method's limit of about 0.0667")
 
 -- in a derived column that no rate reads: when the columns are brought up to date, with name, cell and time
 local function derived(rule, ...)

@@ -228,7 +228,7 @@ for name, f in pairs(core) do
       try("core." .. name, tissue, f, rules, "rate", "cell", one[2](tissue), "here", one[2](tissue))
       try("core." .. name, tissue, f, rules, "derive", "side", one[2](tissue), "here", { "auxin" })
       try("core." .. name, tissue, f, rules, {}, 0, 1, one[2](tissue))
-      local machine = core.machine(rules, "heun", 0.1, 1, {})
+      local machine = core.machine(rules, "heun", 0.1, nil, 1, {})
       try("core." .. name, tissue, f, machine, {}, one[2](tissue), one[2](tissue), 0.01)
     end
   end

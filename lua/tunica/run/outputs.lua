@@ -16,7 +16,7 @@ function outputs.next_time(list)
   local first
   for _, output in ipairs(list) do
     if output.every then
-      local time = due_time(output)
+      local time = output.every * output.count
       if not first or time < first then first = time end
     end
   end
