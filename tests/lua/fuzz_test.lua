@@ -209,7 +209,7 @@ end
 
 local awkward_below = {
   { "rules", function(t) return core.rules(t) end },
-  { "machine", function(t) return core.machine(core.rules(t), "euler", 0.1, 1, {}) end },
+  { "machine", function(t) return core.machine(core.rules(t), "euler", 0.1, nil, 1, {}) end },
 }
 for i, one in ipairs(awkward) do awkward_below[i + 2] = one end
 
