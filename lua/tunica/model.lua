@@ -84,7 +84,7 @@ op { name = "tunica.model", kind = "named", returns = "a model",
     { name = "tissue", type = "tissue", required = true, doc = "the tissue" },
     { name = "params", type = "any", doc = "the table that tunica.params gave" },
     { name = "dt", type = "number", above = 0, unit = "time", doc = dt_doc },
-    { name = "method", type = "string", choices = names_of_methods, default = "euler", doc = method_doc },
+    { name = "method", type = "string", choices = names_of_methods, doc = method_doc .. "; if not given, euler where dt is given, else auto" },
     { name = "tolerance", type = "number", above = 0, doc = tolerance_doc .. "; 1e-6 if not given" },
     { name = "threads", type = "integer", min = 1, max = 64, default = 1, doc = "threads for tissues of 5,000 cells and more; the result does not depend on it" },
     { name = "stop", type = "number", min = 0, unit = "time", doc = "when a batch run ends, unless --until says so" },
@@ -95,6 +95,7 @@ op { name = "tunica.model", kind = "named", returns = "a model",
     if o.params ~= nil and not params.is(o.params) then
       fail("tunica.model: 'params' must be what tunica.params gave, came %s", core.describe(o.params))
     end
+    o.method = o.method or (o.dt and "euler" or "auto")
     check_solution("tunica.model", o)
     local model = setmetatable({}, meta)
     inside[model] = { tissue = o.tissue, params = o.params or params.current(), dt = o.dt, method = o.method, tolerance = o.tolerance, threads = o.threads,
@@ -580,6 +581,21 @@ function methods.cost_of(model)
   return copy
 end
 
+op { name = "model:steady", kind = "named", source = "thesis 9.5",
+  returns = "a table: how (elimination, sparse factors, newton), iterations, residual, growth (largest real part found among the eigenvalues of the Jacobian), stable",
+  doc = "Goes to a state in which nothing changes; time stays, events do not happen. Linear rules are solved directly, others by Newton's method from the present state. If there is none, or it is not determined, nothing changes.",
+  args = { { name = "tolerance", type = "number", above = 0, default = 1e-10, doc = "of what is left of the rates, relative to their terms" },
+    { name = "stability", type = "boolean", default = true, doc = "whether to look if small disturbances decay" } },
+  example = header .. [[model:rate(function(c, d) d.auxin = 1 - c.auxin + c:sum(function(n) return n.auxin - c.auxin end) end) print(model:steady().stable)]],
+  fn = function(model, o)
+    local my = inside[model]
+    prepare(my)
+    local found
+    with_rules(my, function() found = core.steady(my.machine, values_of(my), o.tolerance, o.stability) end)
+    refresh_derived(my)
+    return found
+  end }
+
 op { name = "model:hash", returns = "16 hexadecimal digits", doc = "A fingerprint of everything that changes; equal states have equal ones.",
   example = diffusion .. "print(model:hash())", fn = function(model) return core.hash(model:snapshot()) end }
 
@@ -596,8 +612,9 @@ function methods.describe(model)
   local seconds, cell_steps = counts.seconds, counts.cell_steps
   counts.seconds = nil
   local way = ways[my.method]
+  local chosen, why = core.machine_choice(my.machine)
   return { method = my.method, dt = my.dt, tolerance = my.adaptive and (my.tolerance or default_tolerance) or nil, title = way.title,
-    order = way.order, why = "named by the model", threads = my.threads, rules = listed, warnings = my.warnings, sums = form, counts = counts,
+    order = way.order, chosen = chosen, why = why or "named by the model", threads = my.threads, rules = listed, warnings = my.warnings, sums = form, counts = counts,
     cost = { seconds = seconds, cell_steps = cell_steps, ns_per_cell_step = cell_steps > 0 and seconds / cell_steps * 1e9 or nil } }
 end
 

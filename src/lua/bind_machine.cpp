@@ -1,41 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Equations bound to a tissue and a method, and stepped: what lua/tunica/model.lua runs.
+#include "lua/bind_machine.h"
+
 #include <time.h>
 
 #include <cmath>
-#include <optional>
 
-#include "lua/bind_model.h"
 #include "lua/guard.h"
 #include "rule/reference.h"
-#include "solve/integrator.h"
 
 namespace tunica::lua {
-
-/// How a model is solved.
-struct Solution {
-  std::string method;
-  double dt, tolerance;
-  bool fixed_steps;
-};
-
-/// Equations bound to a tissue and a method.
-struct Machine {
-  std::shared_ptr<System> system;
-  Solution solution;
-  std::vector<std::string> signed_columns;
-  std::unique_ptr<Integrator> integrator;
-  std::optional<Failure> failure;
-  double seconds = 0;  ///< of computing, since the cost was last taken, as all below
-  double cell_steps = 0;
-  uint64_t steps = 0;
-  Work before;  ///< the integrator's work when the cost was last taken
-};
-
-template <>
-struct TypeName<Machine> {
-  static constexpr const char* value = "tunica.machine";
-};
 
 namespace {
 
@@ -415,6 +389,7 @@ void register_machine(lua_State* L) {
                                 {"machine_load", load},
                                 {nullptr, nullptr}};
   add_functions(L, functions);
+  register_steady(L);
 }
 
 }  // namespace tunica::lua

@@ -163,6 +163,8 @@ void System::rates(double t, const double* y, double* dydt) {
   if (!cells_only_) std::fill_n(dydt, state_size_, 0.0);  // sides of the border and direct rules leave gaps
   run(main_, t, y, dydt, 0, nullptr);
   add_direct_rates(t, dydt);
+  // Kernels work in whole rounds; what they leave beyond the last element must not come back as state.
+  for (const StateColumn& s : state_) std::fill_n(dydt + s.offset + s.count, 16, 0.0);
 }
 
 void System::add_values(const std::vector<NodeId>& nodes) {

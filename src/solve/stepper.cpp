@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "solve/stepper.h"
 
+#include "solve/auto.h"
 #include "solve/bdf.h"
 #include "solve/chebyshev.h"
 #include "solve/implicit.h"
@@ -21,6 +22,7 @@ const std::vector<MethodInfo>& methods() {
       {"crank_nicolson", "Crank-Nicolson, modified Newton", 2, Steps::fixed, true, make_crank_nicolson},
       {"bicg", "Crank-Nicolson, Newton with biconjugate gradients", 2, Steps::fixed, true, make_bicg},
       {"bdf", "backward differentiation formulas (CVODE)", 5, Steps::own, true, make_bdf},
+      {"auto", "what costs least, tried on the way", 0, Steps::adaptive, false, make_auto},
   };
   return table;
 }

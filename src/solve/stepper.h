@@ -67,6 +67,10 @@ class Stepper {
   virtual void save(ByteWriter& out) const { (void)out; }
   virtual void load(ByteReader& in) { (void)in; }
 
+  /// For a method that chooses among others: which, and why, in words.
+  virtual std::string choice() const { return {}; }
+  virtual std::string why() const { return {}; }
+
   const Work& work() const { return work_; }
 
  protected:

@@ -191,7 +191,7 @@ end
 -- Errors
 local tissue = tunica.ring { 5 }
 tissue:cell { auxin = 1 }
-check.fails(function() tunica.model { tissue = tissue } end, "dt", "euler")
+check.fails(function() tunica.model { tissue = tissue, method = "euler" } end, "dt", "euler")
 check.fails(function() tunica.model { tissue = tissue, method = "dp54", tolerance = 0 } end, "tolerance", "greater than 0")
 check.fails(function() tunica.model { tissue = tissue, method = "dp45" } end, "dp54")
 local model = tunica.model { tissue = tissue, method = "rkc2" }

@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# The Jacobian of every shipped model is exact: held against complex steps.
+set -euo pipefail
+tunica=$1
+here=$(cd "$(dirname "$0")" && pwd)
+
+while read -r path; do
+  printf '%s: ' "$(basename "$path" .lua)"
+  MODEL=$path "$tunica" -q "$here/../scripts/jacobian_of.lua"
+done < <(find "$here/../../scripts" -name '*.lua' | sort)
