@@ -229,14 +229,25 @@ void Integrator::refuse(const Watch::Symptom& symptom, double time, const std::s
   const Id id = system_->tissue().id(s.kind, symptom.element);
   const std::string kind = symptom.kind;
   const std::string what = kind == "oscillation" ? fmt::format("{} swings (now {:.6g})", s.name, symptom.value)
-                           : kind == "step size" ? fmt::format("{} (now {:.6g})", s.name, symptom.value)
-                                                 : fmt::format("{} became {:.6g}", s.name, symptom.value);
+                           : kind == "step size" || std::isfinite(symptom.value) && kind == "not finite"
+                               ? fmt::format("{} (now {:.6g})", s.name, symptom.value)
+                               : fmt::format("{} became {:.6g}", s.name, symptom.value);
   throw StepFailed({kind, time, s.name, s.kind, id, symptom.value,
                     fmt::format("{} in {} {} at time {:.9g} ({}): {}{}", what, name_of(s.kind), id, time, method(),
                                 advice, explanation())});
 }
 
 void Integrator::refuse_method(const StepResult& result, double time) {
+  // Newton's method and its like only see that something is wrong; where, the rates say.
+  if (const auto bad = bad_rate(time, y_.data())) {
+    Watch::Symptom rate = *bad;
+    rate.kind = "not finite";
+    refuse(
+        rate, time,
+        fmt::format("its rate is not finite there, so the step (method {}) cannot be computed; look for a division by "
+                    "zero in its rule",
+                    stepper_->name()));
+  }
   const Watch::Symptom where = Watch::most_changed(*system_, result.failed, y_.data(), y_.data());
   const System::StateColumn& s = system_->state()[where.column];
   throw StepFailed({result.failed, time, s.name, s.kind, system_->tissue().id(s.kind, where.element), where.value,

@@ -92,7 +92,7 @@ class Integrator {
   void adaptive_step(double target);
   void accept(const StepResult& result, bool shortened);
   void reject(const StepResult& result, const std::optional<Watch::Symptom>& symptom);
-  Watch::Symptom bad_rate(double time);
+  std::optional<Watch::Symptom> bad_rate(double time, const double* y);
   double first_length();
   void interpolate(double time, double* y);
   void check_derived(int column);

@@ -144,10 +144,9 @@ void Integrator::reject(const StepResult& result, const std::optional<Watch::Sym
   if (next_ > least_step * std::max(std::fabs(end()), longest_)) return;
   next_ = 0;
   if (result.failed) refuse_method(result, end());
-  Watch::Symptom where = symptom ? *symptom
-                         : !std::isfinite(result.error)
-                             ? bad_rate(end() + tried)
-                             : Watch::most_changed(*system_, "step size", y_.data(), y_new_.data());
+  std::optional<Watch::Symptom> bad = symptom;
+  if (!bad && !std::isfinite(result.error)) bad = bad_rate(end() + tried, y_new_.data());
+  Watch::Symptom where = bad ? *bad : Watch::most_changed(*system_, "step size", y_.data(), y_new_.data());
   const std::string why = std::string(where.kind) == "not finite" ? "it, or its rate, is then not finite"
                           : symptom                               ? "it is then negative"
                                                                   : "the error is then too large";
@@ -160,17 +159,17 @@ void Integrator::reject(const StepResult& result, const std::optional<Watch::Sym
                              : "; a larger tolerance may help"));
 }
 
-/// Where the rates of the state tried are not finite.
-Watch::Symptom Integrator::bad_rate(double time) {
+/// Where the rates of a state are not finite, if anywhere.
+std::optional<Watch::Symptom> Integrator::bad_rate(double time, const double* y) {
   AlignedBuffer rate;
   rate.resize(system_->state_size());
-  system_->rates(time, y_new_.data(), rate.data());
+  system_->rates(time, y, rate.data());
   for (size_t k = 0; k < system_->state().size(); ++k) {
     const System::StateColumn& s = system_->state()[k];
     for (Index i = 0; i < s.count; ++i)
-      if (!std::isfinite(rate.data()[s.offset + i])) return {"not finite", k, i, y_new_.data()[s.offset + i]};
+      if (!std::isfinite(rate.data()[s.offset + i])) return Watch::Symptom{"not finite", k, i, y[s.offset + i]};
   }
-  return Watch::most_changed(*system_, "step size", y_.data(), y_new_.data());
+  return {};
 }
 
 /// The length of the very first step (Hairer, Norsett and Wanner I, II.4).
