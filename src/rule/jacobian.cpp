@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "rule/differences.h"
+
 namespace tunica {
 
 int32_t SparseRows::place(int row, int32_t col) const {
@@ -25,6 +27,10 @@ Jacobian::Jacobian(System& system) : system_(system) {
   std::vector<int> state;
   for (const System::StateColumn& s : system.state()) state.push_back(s.column);
   derivative_ = differentiate(system.equations(), state);
+  if (!derivative_.missing.empty()) {
+    differences_ = std::make_unique<Differences>(system);
+    return;
+  }
   std::vector<NodeId> nodes;
   for (const Derivative::Variable& variable : derivative_.variables) {
     value_of_.emplace_back();
@@ -41,6 +47,8 @@ Jacobian::Jacobian(System& system) : system_(system) {
   }
   system.add_values(nodes);
 }
+
+Jacobian::~Jacobian() = default;
 
 // === Pattern
 
@@ -89,6 +97,10 @@ void Jacobian::prepare() {
   offsets_.assign(1, 0);
   for (const System::StateColumn& s : system_.state()) offsets_.push_back(offsets_.back() + s.count);
   size_ = offsets_.back();
+  if (differences_) {
+    matrices_.resize(1);
+    return differences_->prepare(offsets_, matrices_[0]);
+  }
   matrices_.assign(derivative_.order.size() + 1, {});
   fillings_.assign(matrices_.size(), {});
   for (size_t k = 0; k < derivative_.order.size(); ++k) build(static_cast<int>(k) + 1, {derivative_.order[k]});
@@ -215,6 +227,7 @@ void Jacobian::evaluate_partials(double t, const double* y) { system_.compute_va
 
 void Jacobian::evaluate(double t, const double* y) {
   ++evaluations_;
+  if (differences_) return differences_->evaluate(t, y, matrices_[0]);
   system_.compute_values(t, y);
   for (size_t k = 1; k < matrices_.size(); ++k) fill(static_cast<int>(k));
   fill(0);

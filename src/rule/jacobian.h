@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,17 +25,19 @@ struct SparseRows {
 
 /// The exact sparse Jacobian d(rates) / d(state) of traced rules. Unknowns are numbered column of state after column of
 /// state, without the padding of the state vector. Derived columns are followed through (second ring of neighbours).
+/// If a rule was not traced, the entries are finite differences (differences.h).
 class Jacobian {
  public:
   explicit Jacobian(System& system);
+  ~Jacobian();
 
-  /// Empty if the rules are traced; else the places of rules whose derivative is not known here.
+  /// Empty if the rules are traced and the entries exact; else the places of the rules that are not.
   const std::vector<std::string>& missing() const { return derivative_.missing; }
   /// Operations that bend (max, where, ...), with the rules' places.
   const std::vector<std::string>& kinks() const { return derivative_.kinks; }
 
   /// The rates are linear in the state, but for a constant.
-  bool linear() const { return derivative_.linear; }
+  bool linear() const { return derivative_.linear && derivative_.missing.empty(); }
   const Derivative& derivative() const { return derivative_; }
   /// Values of the last evaluation: of partial p of variable v, and of Derivative::uniform.
   System::Values partial(int v, size_t p) const { return system_.values(value_of_[v][p]); }
@@ -92,6 +95,7 @@ class Jacobian {
 
   System& system_;
   Derivative derivative_;
+  std::unique_ptr<class Differences> differences_;
   std::vector<int> matrix_of_;                 ///< per variable that is an intermediate
   std::vector<std::vector<size_t>> value_of_;  ///< per variable and partial: in System::values
   size_t uniform_value_ = 0;

@@ -193,12 +193,6 @@ void Bdf::attach(System& system) {
   if (!jacobian_) {
     system_ = &system;
     jacobian_ = std::make_unique<Jacobian>(system);
-    if (!jacobian_->missing().empty())
-      fail(
-          "{}: this rule is run as it is, so its derivative is not known and implicit methods cannot use it; write it "
-          "so "
-          "that it can be traced, or use an explicit method (heun, rkc2)",
-          jacobian_->missing().front());
   }
   jacobian_->prepare();
   if (structure_ == jacobian_->structure()) return;

@@ -21,12 +21,6 @@ constexpr double allowed_g = 0.2;    ///< relative change of g that kept factors
 void Newton::attach(System& system) {
   if (!jacobian_) {
     jacobian_ = std::make_unique<Jacobian>(system);
-    if (!jacobian_->missing().empty())
-      fail(
-          "{}: this rule is run as it is, so its derivative is not known and implicit methods cannot use it; write it "
-          "so "
-          "that it can be traced, or use an explicit method (heun, rkc2)",
-          jacobian_->missing().front());
   }
   jacobian_->prepare();
   if (structure_ != jacobian_->structure()) {

@@ -16,12 +16,6 @@ class Search {
  public:
   Search(System& system, double t, double* y, const SteadyOptions& options)
       : system_(system), jacobian_(system), t_(t), y_(y), options_(options) {
-    if (!jacobian_.missing().empty())
-      fail(
-          "{}: this rule is run as it is, so its derivative is not known; write it so that it can be traced, or run "
-          "the model "
-          "until nothing changes",
-          jacobian_.missing().front());
     rates_.resize(system.state_size());
   }
 
