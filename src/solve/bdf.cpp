@@ -22,6 +22,8 @@ namespace {
 /// Up to so many unknowns sparse factors of the whole matrix are used: on tissues their fill grows faster than the
 /// iterations of GMRES do.
 constexpr int most_for_direct = 6000;
+/// Of the tolerance for a step: errors of several steps stay in its history and add up, the more so after restarts.
+constexpr double share_of_tolerance = 0.5;
 /// After so many steps the method begins anew, so that a checkpoint never needs more to be taken again.
 constexpr int steps_to_restart = 1000;
 
@@ -38,7 +40,7 @@ using Owned = std::unique_ptr<std::remove_pointer_t<T>, Free>;
 
 class Bdf : public Stepper {
  public:
-  explicit Bdf(const StepperOptions& options) : norm_(options.tolerance) { SUNContext_Create(nullptr, &context_); }
+  explicit Bdf(const StepperOptions& options) : norm_(share_of_tolerance * options.tolerance) { SUNContext_Create(nullptr, &context_); }
   ~Bdf() override {
     release();
     SUNContext_Free(&context_);
