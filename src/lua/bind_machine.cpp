@@ -8,6 +8,7 @@
 
 #include "lua/guard.h"
 #include "rule/reference.h"
+#include "solve/spectral_radius.h"
 
 namespace tunica::lua {
 
@@ -238,16 +239,41 @@ int derive(lua_State* L) {
   });
 }
 
-/// machine_state(machine) -> names of the columns that rates change
+/// machine_state(machine) -> names of the columns that rates change, and the kind of element of each
 int state(lua_State* L) {
   return guard(L, [&] {
     const Machine& m = object_at<Machine>(L, 1);
     lua_newtable(L);
+    lua_newtable(L);
     int count = 0;
     for (const System::StateColumn& column : m.system->state()) {
       lua_pushstring(L, column.name.c_str());
-      lua_rawseti(L, -2, ++count);
+      lua_rawseti(L, -3, ++count);
+      lua_pushstring(L, name_of(column.kind));
+      lua_rawseti(L, -2, count);
     }
+    return 2;
+  });
+}
+
+/// machine_spectral_radius(machine, parameters, accuracy, most iterations) -> of the rates' derivative at the present
+/// state
+int spectral_radius_now(lua_State* L) {
+  return guard(L, [&] {
+    Machine& m = object_at<Machine>(L, 1);
+    const Entering entering(L);
+    System& s = *m.system;
+    const Locked locked(s.tissue());
+    s.prepare(parameter_values(L, 2, s.equations()));
+    AlignedBuffer y, rates, vector;
+    y.resize(s.state_size());
+    rates.resize(s.state_size());
+    s.read_state(y.data());
+    const double time = m.integrator->time();
+    s.rates(time, y.data(), rates.data());
+    const int most = static_cast<int>(check_integer(L, 4, "iterations", 1, 1000000));
+    lua_pushnumber(
+        L, spectral_radius(s, time, y.data(), rates.data(), vector, check_number(L, 3, "accuracy"), most).radius);
     return 1;
   });
 }
@@ -375,6 +401,7 @@ void register_machine(lua_State* L) {
                                 {"failure", failure},
                                 {"derive", derive},
                                 {"machine_state", state},
+                                {"machine_spectral_radius", spectral_radius_now},
                                 {"check_lowering", check_lowering},
                                 {"machine_time", time},
                                 {"take_cost", take_cost},
