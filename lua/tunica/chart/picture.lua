@@ -77,7 +77,7 @@ local function panel(series, column, xlabel, keys)
   for i, s in ipairs(series) do
     parts[#parts + 1] = string.format("$series%d using %d:1 with linespoints %s ps 0.95 lw 1.3 %s", i, column, style(s.label),
       keys and "title " .. quoted(s.label) or "notitle")
-    parts[#parts + 1] = string.format("$series%d using %d:($4 > 0 ? $1 : NaN) with points %s ps 1.75 lw 2.2 notitle", i, column, style(s.label))
+    parts[#parts + 1] = string.format("$series%d using %d:($%d > 0 ? $1 : NaN) with points %s ps 1.75 lw 2.2 notitle", i, column, column + 2, style(s.label))
   end
   return string.format("set xlabel %s\nplot %s\n", quoted(xlabel), table.concat(parts, ", \\\n  "))
 end
@@ -100,12 +100,15 @@ end
 function picture.chart(self)
   local series, floor = series_of(self.rows), self.reference.floor
   if #series == 0 then return nil, "no run came to its end" end
+  local by_seconds, by_evaluations = front_by(self.rows, "seconds", floor), front_by(self.rows, "evaluations", floor)
+  local front = {}
+  for _, row in ipairs(by_evaluations) do front[row] = 1 end
   local function line(row)
-    return table.concat({ number(math.max(row.error, floor)), number(math.max(row.seconds, 1e-7)), number(row.evaluations), row.front and 1 or 0 }, " ")
+    return table.concat({ number(math.max(row.error, floor)), number(math.max(row.seconds, 1e-7)), number(row.evaluations), row.front and 1 or 0,
+      front[row] or 0 }, " ")
   end
-  local data = block("front2", front_by(self.rows, "seconds", floor), line) .. block("front3", front_by(self.rows, "evaluations", floor), line)
+  local data = block("front2", by_seconds, line) .. block("front3", by_evaluations, line)
   for i, s in ipairs(series) do data = data .. block("series" .. i, s, line) end
-  local rows_of_keys = math.ceil(#series / 6)
   local common = string.format([[
 set multiplot
 set logscale xy
@@ -115,22 +118,24 @@ set grid lc rgb '#dddddd' lw 0.7
 set border 3 lc rgb '#888888'
 set tics nomirror textcolor rgb '#333333'
 set tmargin at screen 0.90
-set bmargin at screen %g
+set bmargin at screen 0.11
 set arrow 1 from graph 0, first %s to graph 1, first %s nohead dt 2 lc rgb '#999999'
 set arrow 2 from graph 0, first %s to graph 1, first %s nohead dt 3 lc rgb '#999999'
 set yrange [%s:*]
-set label 1 %s at screen 0.5, 0.955 center font ',15' noenhanced
-]], 0.15 + 0.05 * rows_of_keys, number(floor), number(floor), number(self.options.error), number(self.options.error), number(floor / 3),
-    quoted(string.format("%s, t = %s", self.options.name, study.short(self.goal))))
+set label 2 'error asked for' at graph 0.995, first %s right offset 0,0.5 font ',10' textcolor rgb '#888888'
+set label 3 'the references differ' at graph 0.995, first %s right offset 0,0.5 font ',10' textcolor rgb '#888888'
+set label 1 %s at screen 0.4625, 0.955 center font ',15' noenhanced
+]], number(floor), number(floor), number(self.options.error), number(self.options.error), number(floor / 3),
+    number(self.options.error), number(floor), quoted(string.format("%s, t = %s", self.options.name, study.short(self.goal))))
   local ylabel = self.quantity.name == "state" and "error of the state, relative" or "error of " .. self.quantity.name .. ", relative"
   local commands = common
-    .. "set lmargin at screen 0.08\nset rmargin at screen 0.52\nset ylabel " .. quoted(ylabel) .. " noenhanced\n"
-    .. string.format("set key at screen 0.5, %g center bottom maxrows %d horizontal noenhanced samplen 2 width 1\n", 0.015, rows_of_keys)
+    .. "set lmargin at screen 0.075\nset rmargin at screen 0.45\nset ylabel " .. quoted(ylabel) .. " noenhanced\n"
+    .. "set key at screen 0.995, 0.9 right top vertical maxcols 1 noenhanced samplen 2 spacing 1.3 reverse Left\n"
     .. panel(series, 2, "CPU seconds", true)
-    .. "unset label 1\nunset ylabel\nset format y ''\nset lmargin at screen 0.55\nset rmargin at screen 0.98\nunset key\n"
+    .. "unset label 1\nunset ylabel\nset format y ''\nset lmargin at screen 0.475\nset rmargin at screen 0.85\nunset key\n"
     .. panel(series, 3, "evaluations of the rates", false)
     .. "unset multiplot"
-  return draw(self.folder, "chart", 1400, 760, data, commands)
+  return draw(self.folder, "chart", 1400, 680, data, commands)
 end
 
 picture.draw, picture.looks, picture.quoted, picture.block, picture.number = draw, looks, quoted, block, number

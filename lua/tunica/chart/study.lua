@@ -131,7 +131,8 @@ local function open_folder(self)
     local what = difference(old.identity, identity)
     if what then study.refuse("'%s' holds another %s: %s; choose another --out", out, self.kind, what) end
     take_folder(self, out)
-    self.resumed = true
+    self.old = old
+    self.record.reference = old.reference
   else
     local refusal = out and directory.refusal(out)
     if refusal then study.refuse("%s", refusal) end
