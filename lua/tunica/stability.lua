@@ -4,6 +4,7 @@
 local core = require "tunica.core"
 local study = require "tunica.chart.study"
 local reference = require "tunica.chart.reference"
+local quantity = require "tunica.chart.quantity"
 local pattern = require "tunica.chart.pattern"
 local trials = require "tunica.chart.trials"
 
@@ -13,6 +14,8 @@ local precision = { dt = 1.01, tolerance = 2 }  -- ratio of the last two tried
 local stride = { dt = 2, tolerance = 10 }       -- of the search before
 local needed = 0.01                             -- how near two references must be; the pattern is coarser
 local most_strides = 20
+local fewest_steps = 10                         -- a longer step is not tried: instability could not show
+local too_large = 100                           -- times the greatest value at the start and the end: no longer bounded
 -- Where the step times the spectral radius may be, at most, for rates whose derivative has negative real eigenvalues.
 local limits = { euler = 2, heun = 2, rk4 = 2.785 }
 
@@ -42,6 +45,10 @@ local function try(self, method, by, setting)
   if not run then return nil end
   local trial = { method = method, by = by, setting = setting, bounded = run.status == "done", pattern = false, why = run.failure }
   if run.failure and run.time then trial.why = string.format("%s at t = %s", run.failure, study.short(run.time)) end
+  local size = trial.bounded and quantity.size(self.quantity.take(self.model)) or 0
+  if size > too_large * self.size then
+    trial.bounded, trial.why = false, string.format("%s is %s times what it should be", self.quantity.name, study.short(size / self.size))
+  end
   if trial.bounded then
     trial.why = pattern.difference(self.model.tissue, pattern.maxima(self.model.tissue, self.quantity.name), self.reference.values.maxima)
     trial.pattern = trial.why == nil
@@ -89,7 +96,7 @@ local function judge(self, way, by)
   local label = way.name .. (way.either and by == "dt" and " fixed" or "")
   local result = { label = label, method = way.name, by = by }
   local first = by == "dt" and study.base_step(self) or 1e-3
-  local most = by == "dt" and self.goal / 2 or 1
+  local most = by == "dt" and self.goal / fewest_steps or 1
   local went
   if by == "dt" then
     went, result.bounded = largest(self, way.name, by, "bounded", first, most)
@@ -113,6 +120,8 @@ end
 function stability.loop(self)
   if not reference.make(self, needed) then return end
   self.radius = radius(self)
+  self.model:restore(self.start)
+  self.size = math.max(quantity.size(self.quantity.take(self.model)), quantity.size(self.reference.values))
   self.record.spectral_radius = self.radius
   local count = #self.reference.values.maxima
   study.note(self, "reference: %s; %d maxima of %s", self.reference.about, count, self.quantity.name)

@@ -22,7 +22,7 @@ local function number(x) return string.format("%.9g", x) end
 --- Methods of the table with their rows that have an error, finest last; in the order of the rows.
 local function series_of(list)
   local by_label, order = {}, {}
-  for _, row in ipairs(list) do
+  for _, row in ipairs(rows.sorted(list)) do
     if rows.error_of(row) then
       local label = rows.label(row.method, row.by)
       if not by_label[label] then
@@ -32,7 +32,6 @@ local function series_of(list)
       table.insert(by_label[label], row)
     end
   end
-  for _, series in ipairs(order) do table.sort(series, function(a, b) return a.setting > b.setting end) end
   return order
 end
 
@@ -129,10 +128,10 @@ set label 1 %s at screen 0.4625, 0.955 center font ',15' noenhanced
     number(self.options.error), number(floor), quoted(string.format("%s, t = %s", self.options.name, study.short(self.goal))))
   local ylabel = self.quantity.name == "state" and "error of the state, relative" or "error of " .. self.quantity.name .. ", relative"
   local commands = common
-    .. "set lmargin at screen 0.075\nset rmargin at screen 0.45\nset ylabel " .. quoted(ylabel) .. " noenhanced\n"
+    .. "set lmargin at screen 0.075\nset rmargin at screen 0.445\nset ylabel " .. quoted(ylabel) .. " noenhanced\n"
     .. "set key at screen 0.995, 0.9 right top vertical maxcols 1 noenhanced samplen 2 spacing 1.3 reverse Left\n"
     .. panel(series, 2, "CPU seconds", true)
-    .. "unset label 1\nunset ylabel\nset format y ''\nset lmargin at screen 0.475\nset rmargin at screen 0.85\nunset key\n"
+    .. "unset label 1\nunset ylabel\nset format y ''\nset lmargin at screen 0.48\nset rmargin at screen 0.85\nunset key\n"
     .. panel(series, 3, "evaluations of the rates", false)
     .. "unset multiplot"
   return draw(self.folder, "chart", 1400, 680, data, commands)

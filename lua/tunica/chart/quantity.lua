@@ -104,4 +104,13 @@ function quantity.compare(a, b)
   return nil, means
 end
 
+--- The greatest absolute value in what was taken.
+function quantity.size(values)
+  local most = math.abs(values.number or 0)
+  for _, column in ipairs(values.columns or {}) do
+    for _, value in ipairs(column.values) do most = math.max(most, math.abs(value)) end
+  end
+  return most
+end
+
 return quantity

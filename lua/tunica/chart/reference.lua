@@ -44,14 +44,14 @@ local function agreement(witnesses)
 end
 
 --- Asks one method after the other until two agree well. Returns false after an interruption.
-local function gather(self, witnesses)
+local function gather(self, witnesses, needed)
   local limit = self.options.seconds and 10 * self.options.seconds or 300
   if not ask(self, witnesses, { method = "dp54", tolerance = tightest }, limit) then return false end
   local first = has(witnesses, "dp54")
   local slow = first and math.min(limit, math.max(10, 20 * first.cost.seconds)) or limit
   local way = { implicit = true }
   if not study.obstacle(self, way) and not ask(self, witnesses, { method = "bdf", tolerance = tightest }, slow) then return false end
-  if #witnesses == 2 and agreement(witnesses) <= well_agreed then return true end
+  if #witnesses == 2 and agreement(witnesses) <= math.min(well_agreed, needed / 10) then return true end
   if first then
     local dt = self.goal / first.cost.steps
     for _ = 1, halvings do
@@ -87,7 +87,7 @@ end
 function reference.make(self, needed)
   if read(self) then return true end
   local witnesses = { failed = {} }
-  if not gather(self, witnesses) then return false end
+  if not gather(self, witnesses, needed) then return false end
   if #witnesses < 2 then
     self.code = study.exit.numerical
     error("the reference does not converge: two methods are needed, but " .. table.concat(witnesses.failed, "; "), 0)

@@ -79,14 +79,27 @@ function rows.mark_front(list, floor)
   end
 end
 
+--- The rows in the order of the kernel's methods, coarse settings first.
+function rows.sorted(list)
+  local rank, sorted = {}, {}
+  for i, way in ipairs(core.methods_of_solution()) do rank[way.name] = i end
+  for i, row in ipairs(list) do sorted[i] = row end
+  table.sort(sorted, function(a, b)
+    if a.method ~= b.method then return (rank[a.method] or 0) < (rank[b.method] or 0) end
+    if a.by ~= b.by then return a.by < b.by end
+    return a.setting > b.setting
+  end)
+  return sorted
+end
+
 -- Saying it --------------------------------------------------------------------------------------------------------
 
 local function setting_text(row) return string.format("%s %s", row.by == "dt" and "dt" or "tol", study.short(row.setting)) end
 
---- Rows in the order of a table: by series, from coarse to fine; of failed ones only the finest of those above the rest.
+--- Rows for a table, sorted; of those that failed only the finest above the ones that worked.
 local function to_print(list)
   local series, order = {}, {}
-  for _, row in ipairs(list) do
+  for _, row in ipairs(rows.sorted(list)) do
     local label = rows.label(row.method, row.by)
     if not series[label] then
       series[label] = {}
@@ -96,7 +109,6 @@ local function to_print(list)
   end
   local shown = {}
   for _, label in ipairs(order) do
-    table.sort(series[label], function(a, b) return a.setting > b.setting end)
     local worked = false
     for i, row in ipairs(series[label]) do
       local next_row = series[label][i + 1]
@@ -159,7 +171,10 @@ function rows.recommend(list, wanted)
     study.short(best.setting), study.short(best.error), study.short(best.seconds))
   local found = { method = best.method, [best.by] = best.setting, error = best.error, seconds = best.seconds, wanted = wanted }
   local seconds, how = euler_at(list, wanted)
-  if seconds then
+  if best.method == "euler" then
+    text = text .. " No other method is cheaper."
+    found.euler_seconds, found.times_faster = best.seconds, 1
+  elseif seconds then
     text = text .. string.format(" euler: %s s (%s), %s times as long.", study.short(seconds), how, study.short(seconds / best.seconds))
     found.euler_seconds, found.euler_found, found.times_faster = seconds, how, seconds / best.seconds
   else
