@@ -8,7 +8,6 @@
 
 #include "lua/guard.h"
 #include "rule/reference.h"
-#include "solve/spectral_radius.h"
 
 namespace tunica::lua {
 
@@ -256,28 +255,6 @@ int state(lua_State* L) {
   });
 }
 
-/// machine_spectral_radius(machine, parameters, accuracy, most iterations) -> of the rates' derivative at the present
-/// state
-int spectral_radius_now(lua_State* L) {
-  return guard(L, [&] {
-    Machine& m = object_at<Machine>(L, 1);
-    const Entering entering(L);
-    System& s = *m.system;
-    const Locked locked(s.tissue());
-    s.prepare(parameter_values(L, 2, s.equations()));
-    AlignedBuffer y, rates, vector;
-    y.resize(s.state_size());
-    rates.resize(s.state_size());
-    s.read_state(y.data());
-    const double time = m.integrator->time();
-    s.rates(time, y.data(), rates.data());
-    const int most = static_cast<int>(check_integer(L, 4, "iterations", 1, 1000000));
-    lua_pushnumber(
-        L, spectral_radius(s, time, y.data(), rates.data(), vector, check_number(L, 3, "accuracy"), most).radius);
-    return 1;
-  });
-}
-
 /// check_lowering(rules, machine, parameters, cell indices count): compares the passes with the graphs they came from
 /// on some cells. Errors: they differ, which is a fault of the program.
 int check_lowering(lua_State* L) {
@@ -401,7 +378,6 @@ void register_machine(lua_State* L) {
                                 {"failure", failure},
                                 {"derive", derive},
                                 {"machine_state", state},
-                                {"machine_spectral_radius", spectral_radius_now},
                                 {"check_lowering", check_lowering},
                                 {"machine_time", time},
                                 {"take_cost", take_cost},
