@@ -54,7 +54,7 @@ local function measure(self, method, by, setting)
         row.failure, row.detail = "no digit right", string.format("error %s", study.short(row.error))
       end
       if self.reference.by_means then row.error = row.error or row.means end
-      longest, spent = cost.seconds, 0
+      longest, spent, row.wall = cost.seconds, 0, run.wall
     end
     row.seconds, longest = math.min(row.seconds, cost.seconds), math.max(longest, cost.seconds)
     row.repeats, row.spread, spent = n, longest - row.seconds, spent + run.wall
@@ -132,7 +132,7 @@ local function run_series(self, method, by)
       local error = row.error or row.means
       stuck = before and error > 0.8 * before and (stuck or 0) + 1 or 0
       if error <= 2 * self.reference.floor or stuck >= 2 then return true end
-      if by == "dt" and 2 * row.seconds > limit(self) then return true end
+      if by == "dt" and 2 * math.max(row.seconds, row.wall or 0) > limit(self) then return true end
       before = error
     end
   end

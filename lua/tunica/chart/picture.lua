@@ -122,7 +122,7 @@ set arrow 1 from graph 0, first %s to graph 1, first %s nohead dt 2 lc rgb '#999
 set arrow 2 from graph 0, first %s to graph 1, first %s nohead dt 3 lc rgb '#999999'
 set yrange [%s:*]
 set label 2 'error asked for' at graph 0.995, first %s right offset 0,0.5 font ',10' textcolor rgb '#888888'
-set label 3 'the references differ' at graph 0.995, first %s right offset 0,0.5 font ',10' textcolor rgb '#888888'
+set label 3 'the references differ' at graph 0.01, first %s left offset 0,0.5 font ',10' textcolor rgb '#888888'
 set label 1 %s at screen 0.4625, 0.955 center font ',15' noenhanced
 ]], number(floor), number(floor), number(self.options.error), number(self.options.error), number(floor / 3),
     number(self.options.error), number(floor), quoted(string.format("%s, t = %s", self.options.name, study.short(self.goal))))

@@ -82,10 +82,21 @@ local function read(self)
   return true
 end
 
+--- Errors: the best two witnesses are not as near as needed.
+local function check(self, floor, about, needed)
+  if floor <= needed then return end
+  self.code = study.exit.numerical
+  error(string.format("the reference does not converge: %s; they must agree to %s. Is the model chaotic by then, or does an event " ..
+    "depend on the last bits? Try a smaller --until, a --quantity that is a mean, or a larger --error", about, study.short(needed)), 0)
+end
+
 --- Makes self.reference = { values, floor, by_means, about }, or reads it. `needed`: how near two methods must be, relative.
 -- Returns false after an interruption. Errors: they do not agree.
 function reference.make(self, needed)
-  if read(self) then return true end
+  if read(self) then
+    check(self, self.reference.floor, self.reference.about, needed)
+    return true
+  end
   local witnesses = { failed = {} }
   if not gather(self, witnesses, needed) then return false end
   if #witnesses < 2 then
@@ -96,11 +107,7 @@ function reference.make(self, needed)
   local about = string.format("%s; %s", witnesses[1].name, sentence(witnesses))
   self.record.reference = { about = about, floor = floor, agrees_with = who, by_means = by_means }
   study.write_record(self)
-  if not (floor <= needed) then
-    self.code = study.exit.numerical
-    error(string.format("the reference does not converge: %s; they must agree to %s. Is the model chaotic by then, or does an event " ..
-      "depend on the last bits? Try a smaller --until, a --quantity that is a mean, or a larger --error", about, study.short(needed)), 0)
-  end
+  check(self, floor, about, needed)
   self.reference = { values = witnesses[1].values, floor = math.max(floor, 1e-15), by_means = by_means, about = about }
   core.write_atomic(self.folder .. file, core.encode(self.reference))
   return true
