@@ -573,6 +573,22 @@ function methods.solution(model)
   return { method = my.method, dt = my.dt, tolerance = my.tolerance }
 end
 
+--- For charts of methods: the columns that rates change, as a list of { name =, kind = }.
+function methods.state_columns(model)
+  local my, list = inside[model], {}
+  prepare(my)
+  local names, kinds_of = core.machine_state(my.machine)
+  for i, name in ipairs(names) do list[i] = { name = name, kind = kinds_of[i] } end
+  return list
+end
+
+--- The spectral radius of the rates' derivative at the present state, to about 1e-4 where the power method converges.
+function methods.spectral_radius(model)
+  local my = inside[model]
+  prepare(my)
+  return (core.machine_spectral_radius(my.machine, values_of(my), 1e-6, 2000))
+end
+
 --- What the model has cost since it was made, restored or given a method.
 function methods.cost_of(model)
   local copy = { seconds = 0, steps = 0, rejected = 0, evaluations = 0, jacobians = 0, factorizations = 0, newton_iterations = 0,

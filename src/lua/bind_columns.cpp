@@ -118,6 +118,25 @@ int add_column(lua_State* L) {
   });
 }
 
+/// column_values(tissue, kind, column) -> list of identities, list of values, in order of index
+int column_values(lua_State* L) {
+  return guard(L, [&] {
+    Tissue& tissue = tissue_at(L, 1);
+    const Kind kind = check_kind(L, 2);
+    const Column& column = tissue.column(kind, check_string(L, 3, "the name of a column"));
+    const Index count = tissue.count(kind);
+    lua_createtable(L, count, 0);
+    lua_createtable(L, count, 0);
+    for (Index i = 0; i < count; ++i) {
+      lua_pushnumber(L, tissue.id(kind, i));
+      lua_rawseti(L, -3, i + 1);
+      lua_pushnumber(L, column.values[static_cast<size_t>(i)]);
+      lua_rawseti(L, -2, i + 1);
+    }
+    return 2;
+  });
+}
+
 enum class Reduction { sum, mean, least, greatest };
 
 /// reduce(tissue, kind, column); the elements in order of index, so the sum is the same bits for the same tissue.
@@ -172,6 +191,7 @@ int random_number(lua_State* L) {
 void register_columns(lua_State* L) {
   const luaL_Reg functions[] = {{"columns", columns},
                                 {"add_column", add_column},
+                                {"column_values", column_values},
                                 {"sum", reduce<Reduction::sum>},
                                 {"mean", reduce<Reduction::mean>},
                                 {"min", reduce<Reduction::least>},

@@ -238,17 +238,20 @@ int derive(lua_State* L) {
   });
 }
 
-/// machine_state(machine) -> names of the columns that rates change
+/// machine_state(machine) -> names of the columns that rates change, and the kind of element of each
 int state(lua_State* L) {
   return guard(L, [&] {
     const Machine& m = object_at<Machine>(L, 1);
     lua_newtable(L);
+    lua_newtable(L);
     int count = 0;
     for (const System::StateColumn& column : m.system->state()) {
       lua_pushstring(L, column.name.c_str());
-      lua_rawseti(L, -2, ++count);
+      lua_rawseti(L, -3, ++count);
+      lua_pushstring(L, name_of(column.kind));
+      lua_rawseti(L, -2, count);
     }
-    return 1;
+    return 2;
   });
 }
 

@@ -5,6 +5,7 @@
 #include "lua/bind_machine.h"
 #include "lua/guard.h"
 #include "rule/complex_step.h"
+#include "solve/spectral_radius.h"
 #include "solve/steady.h"
 
 namespace tunica::lua {
@@ -43,6 +44,28 @@ int steady(lua_State* L) {
       lua_pushboolean(L, found.stable);
       lua_setfield(L, -2, "stable");
     }
+    return 1;
+  });
+}
+
+/// machine_spectral_radius(machine, parameters, accuracy, most iterations) -> of the rates' derivative at the present
+/// state
+int spectral_radius_now(lua_State* L) {
+  return guard(L, [&] {
+    Machine& m = object_at<Machine>(L, 1);
+    const Entering entering(L);
+    System& s = *m.system;
+    const Locked locked(s.tissue());
+    s.prepare(parameter_values(L, 2, s.equations()));
+    AlignedBuffer y, rates, vector;
+    y.resize(s.state_size());
+    rates.resize(s.state_size());
+    s.read_state(y.data());
+    const double time = m.integrator->time();
+    s.rates(time, y.data(), rates.data());
+    const int most = static_cast<int>(check_integer(L, 4, "iterations", 1, 1000000));
+    lua_pushnumber(
+        L, spectral_radius(s, time, y.data(), rates.data(), vector, check_number(L, 3, "accuracy"), most).radius);
     return 1;
   });
 }
@@ -126,11 +149,9 @@ int check_jacobian(lua_State* L) {
 }  // namespace
 
 void register_steady(lua_State* L) {
-  const luaL_Reg functions[] = {{"steady", steady},
-                                {"machine_choice", choice},
-                                {"smoothness", smoothness},
-                                {"check_jacobian", check_jacobian},
-                                {nullptr, nullptr}};
+  const luaL_Reg functions[] = {
+      {"steady", steady},         {"machine_choice", choice},         {"machine_spectral_radius", spectral_radius_now},
+      {"smoothness", smoothness}, {"check_jacobian", check_jacobian}, {nullptr, nullptr}};
   add_functions(L, functions);
 }
 

@@ -8,6 +8,7 @@
 #include "lua/bind_tissue.h"
 #include "lua/terminal_reply.h"
 #include "lua/view_settings.h"
+#include "view/gnuplot.h"
 #include "view/movie.h"
 #include "view/png.h"
 #include "view/render.h"
@@ -145,6 +146,16 @@ int movie_finish(lua_State* L) {
   });
 }
 
+// === Charts
+
+/// gnuplot(commands): lets gnuplot carry them out.
+int gnuplot(lua_State* L) {
+  return guard(L, [&] {
+    run_gnuplot(check_string(L, 1, "commands"));
+    return 0;
+  });
+}
+
 // === Pictures in a terminal
 
 /// terminal_picture(bytes of a PNG) -> the characters that show it on standard output, or nil if that cannot show one
@@ -176,6 +187,7 @@ void register_view(lua_State* L) {
                                 {"movie", movie},
                                 {"movie_add", movie_add},
                                 {"movie_finish", movie_finish},
+                                {"gnuplot", gnuplot},
                                 {"terminal_picture", terminal_picture_of},
                                 {nullptr, nullptr}};
   add_functions(L, functions);

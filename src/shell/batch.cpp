@@ -54,16 +54,28 @@ void push_options(lua_State* L, const Options& options, const Script& script, co
   set_text(L, "versions", versions_as_json());
   if (options.command == Options::Command::resume) set_text(L, "resume", options.directory);
   if (options.command == Options::Command::rerun) set_text(L, "rerun", options.directory);
+  if (!options.quantity.empty()) set_text(L, "quantity", options.quantity);
+  set_list(L, "methods", options.methods);
+  set_number(L, "error", options.error);
+  set_number(L, "repeats", options.repeats);
+  if (options.seconds) set_number(L, "seconds", *options.seconds);
   set_list(L, "arguments", options.arguments);
   // Code that is the script itself is kept as the script.
   set_list(L, "code", script.path == code_path ? std::vector<std::string>{} : options.code);
 }
 
-/// Pushes a function of lua/tunica/run.lua.
-bool push_driver(Session& session, const char* name) {
+/// The module of lua/tunica that has begin, loop and close of what is asked for.
+const char* driver_of(const Options& options) {
+  if (options.command == Options::Command::chart) return "tunica.chart";
+  if (options.command == Options::Command::stability) return "tunica.stability";
+  return "tunica.run";
+}
+
+/// Pushes a function of a driver.
+bool push_driver(Session& session, const char* driver, const char* name) {
   lua_State* L = session.lua();
   lua_getglobal(L, "require");
-  lua_pushliteral(L, "tunica.run");
+  lua_pushstring(L, driver);
   if (!session.call(1, 1)) return false;
   lua_getfield(L, -1, name);
   lua_remove(L, -2);
@@ -100,7 +112,7 @@ bool is_model(Session& session) {
   lua_State* L = session.lua();
   if (!lua_istable(L, -1) && !lua_isuserdata(L, -1)) return false;
   lua_pushvalue(L, -1);
-  if (!push_driver(session, "is_model")) return false;
+  if (!push_driver(session, "tunica.run", "is_model")) return false;
   lua_insert(L, -2);
   if (!session.call(1, 1)) return false;
   const bool yes = lua_toboolean(L, -1);
@@ -113,7 +125,8 @@ int run_batch(Session& session, const Options& options, const Script& script, co
   Interrupts& interrupts = session.interrupts();
   std::signal(SIGPIPE, SIG_IGN);  // a run goes on when nobody reads what it prints
   const int model = lua_gettop(L);
-  if (!push_driver(session, "begin")) return session.exit_code();
+  const char* driver = driver_of(options);
+  if (!push_driver(session, driver, "begin")) return session.exit_code();
   lua_pushvalue(L, model);
   push_options(L, options, script, name);
   if (!session.call(2, 2)) return session.exit_code();
@@ -122,14 +135,14 @@ int run_batch(Session& session, const Options& options, const Script& script, co
   lua_pop(L, 1);
   const int run = lua_gettop(L);
 
-  if (!push_driver(session, "loop")) return session.exit_code();
+  if (!push_driver(session, driver, "loop")) return session.exit_code();
   lua_pushvalue(L, run);
   const auto error = lua::call_protected(L, 1, 1);
   const int stop = interrupts.signal();
   const int code = stop || error ? session.code_of_stop() : 0;
   interrupts.calm(false);  // the loop has unwound; what follows must not be stopped, except by a second signal
 
-  if (!push_driver(session, "close")) return session.exit_code();
+  if (!push_driver(session, driver, "close")) return session.exit_code();
   lua_pushvalue(L, run);
   if (error && !stop)
     lua_pushlstring(L, error->data(), error->size());

@@ -21,7 +21,8 @@ Record read_record(const std::string& directory);
 bool is_model(Session& session);
 
 /// Runs the model on top of the Lua stack to its end into a run directory (lua/tunica/run.lua does it), or continues or
-/// repeats the run in `options.directory`. Returns the exit code.
+/// repeats the run in `options.directory`; or makes its chart (lua/tunica/chart.lua) or tries its stability
+/// (stability.lua). Returns the exit code.
 int run_batch(Session& session, const Options& options, const Script& script, const std::string& name);
 
 }  // namespace tunica::shell

@@ -23,6 +23,8 @@ Commands:
   tunica models                list the shipped models
   tunica resume DIR            continue an interrupted run (--until T: beyond its end)
   tunica rerun DIR             repeat a run in a new directory and compare the result
+  tunica chart MODEL           the error of every method against its time, and which to take
+  tunica stability MODEL       the largest step of every method
 
 Exit codes: 0 done, 1 error in the script, 2 command line, 3 numerical failure, 4 files cannot be written,
   75 stopped by SIGUSR1 with a checkpoint, 129 hung up, 130 interrupted, 143 terminated.
@@ -67,6 +69,34 @@ void add_script_options(CLI::App& app, Options& options) {
   app.add_option("arguments", options.arguments, "parameters of the model: key=value")->type_name("");
 }
 
+/// What `tunica chart` and `tunica stability` have in common, and what only one of them has.
+void add_study_options(CLI::App& app, Options& options) {
+  const bool chart = options.command == Options::Command::chart;
+  app.add_option(
+         "--out", options.out,
+         fmt::format("folder, continued if it is there (default runs/MODEL-{}-N)", chart ? "chart" : "stability"))
+      ->type_name("DIR");
+  app.add_option("--until", options.until, "model time at which runs end and are compared")->type_name("T");
+  app.add_option("--methods", options.methods, "only these, separated by commas")->type_name("A,B")->delimiter(',');
+  app.add_option("--quantity", options.quantity,
+                 chart ? "column, or number that the model reports, whose error counts (default: every column of state)"
+                       : "column whose maxima are the pattern (default: the first column of state)")
+      ->type_name("NAME");
+  app.add_option("--seconds", options.seconds, "most that one run may take")->type_name("S");
+  if (chart) {
+    app.add_option("--error", options.error, "recommend a method for this error (default 1e-3)")->type_name("E");
+    app.add_option("--repeats", options.repeats, "of runs shorter than 0.2 s; the least time counts (default 3)")
+        ->type_name("N");
+  }
+  app.add_flag("-q,--quiet", options.quiet, "no progress, no notes");
+  app.add_option_function<std::string>(
+         "--seed", [&](const std::string& text) { options.seed = read_seed(text); },
+         "seed of all random numbers (default 1)")
+      ->type_name("N");
+  app.add_option("script", options.script, "script, or name of a shipped model")->type_name("MODEL")->required();
+  app.add_option("arguments", options.arguments, "parameters of the model: key=value")->type_name("");
+}
+
 /// "--otu" is unknown; did you mean '--out'?
 std::string about_unknown(const CLI::App& app, const std::string& given) {
   std::vector<std::string> names;
@@ -100,6 +130,9 @@ void check(const Options& options) {
   if (options.until && !(std::isfinite(*options.until) && *options.until >= 0))
     throw UsageError{fmt::format("--until: expected a time from 0 on, got {}", *options.until)};
   if (!(options.checkpoint > 0)) throw UsageError{"--checkpoint: expected a number of seconds above 0"};
+  if (!(options.error > 0 && options.error < 1)) throw UsageError{"--error: expected a number between 0 and 1"};
+  if (options.repeats < 1 || options.repeats > 1000) throw UsageError{"--repeats: expected a number from 1 to 1000"};
+  if (options.seconds && !(*options.seconds > 0)) throw UsageError{"--seconds: expected a number of seconds above 0"};
   if (options.movie && options.frames == false) throw UsageError{"--movie needs frames; leave out --no-frames"};
 }
 
@@ -114,6 +147,13 @@ std::optional<Options> read_options(int argc, char** argv) {
     options.command = Options::Command::models;
     app.add_flag("--json", options.json, "as one JSON object");
     return parse(app, argc - 1, argv + 1) ? std::optional(options) : std::nullopt;
+  }
+  if (first == "chart" || first == "stability") {
+    options.command = first == "chart" ? Options::Command::chart : Options::Command::stability;
+    add_study_options(app, options);
+    if (!parse(app, argc - 1, argv + 1)) return std::nullopt;
+    check(options);
+    return options;
   }
   add_run_options(app, options);
   if (first == "resume" || first == "rerun") {

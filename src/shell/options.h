@@ -10,7 +10,7 @@ namespace tunica::shell {
 
 /// What the command line asks for.
 struct Options {
-  enum class Command { script, models, resume, rerun, version };
+  enum class Command { script, models, resume, rerun, chart, stability, version };
   Command command = Command::script;
   std::string script;                  ///< path, name of a shipped model, "-" (standard input), or ""
   std::vector<std::string> arguments;  ///< after the script: key=value for a model, anything for a plain script
@@ -21,7 +21,12 @@ struct Options {
   std::optional<uint64_t> seed;
   std::optional<bool> frames;
   bool movie = false, json = false, interactive = false, quiet = false;
-  double checkpoint = 60;  ///< seconds of wall clock between checkpoints
+  std::string quantity;              ///< chart, stability: what errors and patterns are of; "" = the default
+  std::vector<std::string> methods;  ///< chart, stability: those to try; none = all
+  double error = 1e-3;               ///< chart: the error for which a method is recommended
+  int repeats = 3;                   ///< chart: of runs shorter than 0.2 s
+  std::optional<double> seconds;     ///< chart, stability: most that one run may take
+  double checkpoint = 60;            ///< seconds of wall clock between checkpoints
 };
 
 /// Thrown for what is wrong with the command line: exit code 2.

@@ -113,6 +113,23 @@ int run_script(Options& options) {
   return run_model(session, options, script, stem_of(options.script.empty() ? "command" : options.script));
 }
 
+/// tunica chart, tunica stability: the model is loaded as for a run.
+int run_study(const Options& options) {
+  Session session(options.seed.value_or(1));
+  std::string wrong;
+  const auto parameters = read_parameters(options.arguments, &wrong);
+  if (!parameters) throw UsageError{fmt::format("expected name=value to change a parameter, got '{}'", wrong)};
+  session.set_parameters(*parameters);
+  session.set_arguments(options.script, options.arguments);
+  const Script script = read_script(options.script);
+  if (!session.run(script, true)) return session.exit_code();
+  if (!is_model(session)) {
+    if (session.exit_code()) return session.exit_code();
+    throw UsageError{fmt::format("'{}' returned no model", options.script)};
+  }
+  return run_batch(session, options, script, stem_of(options.script));
+}
+
 int run_recorded(Options& options) {
   Record record;
   try {
@@ -142,6 +159,9 @@ int run_command(Options& options) {
     case Options::Command::resume:
     case Options::Command::rerun:
       return run_recorded(options);
+    case Options::Command::chart:
+    case Options::Command::stability:
+      return run_study(options);
     case Options::Command::script:
       break;
   }

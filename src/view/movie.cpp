@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "view/movie.h"
 
-#include <fcntl.h>
-#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,48 +15,18 @@
 
 #include "base/error.h"
 #include "base/files.h"
-
-extern char** environ;
+#include "view/spawn.h"
 
 namespace tunica {
 namespace {
 
 int even(int side) { return side + side % 2; }
 
-/// Attributes and redirections of the encoder's process; freed on every way out.
-struct SpawnPlan {
-  posix_spawnattr_t attributes;
-  posix_spawn_file_actions_t actions;
-  SpawnPlan() {
-    posix_spawnattr_init(&attributes);
-    posix_spawn_file_actions_init(&actions);
-  }
-  ~SpawnPlan() {
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
-  }
-};
-
-pid_t spawn(const std::vector<std::string>& command, int input, int messages) {
-  SpawnPlan plan;
-  sigset_t every, nothing;
-  sigfillset(&every);
-  sigemptyset(&nothing);
-  posix_spawnattr_setsigdefault(&plan.attributes, &every);
-  posix_spawnattr_setsigmask(&plan.attributes, &nothing);
-  posix_spawnattr_setpgroup(&plan.attributes, 0);
-  posix_spawnattr_setflags(&plan.attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
-  posix_spawn_file_actions_adddup2(&plan.actions, input, 0);
-  posix_spawn_file_actions_adddup2(&plan.actions, messages, 1);
-  posix_spawn_file_actions_adddup2(&plan.actions, messages, 2);
-  std::vector<char*> arguments;
-  for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  pid_t child = -1;
-  const int error = posix_spawnp(&child, "ffmpeg", &plan.actions, &plan.attributes, arguments.data(), environ);
-  if (error == ENOENT) fail("cannot make a movie: ffmpeg is not installed (Debian: apt-get install ffmpeg)");
-  if (error) fail("cannot make a movie: ffmpeg does not start: {}", std::strerror(error));
-  return child;
+pid_t start_encoder(const std::vector<std::string>& command, int input, int messages) {
+  const pid_t encoder = spawn(command, input, messages);
+  if (encoder == -ENOENT) fail("cannot make a movie: ffmpeg is not installed (Debian: apt-get install ffmpeg)");
+  if (encoder < 0) fail("cannot make a movie: ffmpeg does not start: {}", std::strerror(-encoder));
+  return encoder;
 }
 
 std::vector<std::string> command_for(int width, int height, double rate, const std::string& path) {
@@ -98,7 +65,7 @@ void Movie::start(const Picture& first) {
   pipe_ = ends[0];
   try {
     if (messages_ < 0) fail("cannot make a movie: {}", std::strerror(errno));
-    encoder_ = spawn(command_for(width_, height_, rate_, part_), ends[1], messages_);
+    encoder_ = start_encoder(command_for(width_, height_, rate_, part_), ends[1], messages_);
   } catch (...) {
     close(ends[1]);
     discard();
@@ -139,11 +106,9 @@ void Movie::send(const char* data, size_t size) {
 bool Movie::wait() {
   if (pipe_ >= 0) close(pipe_);
   pipe_ = -1;
-  int status = 0;
-  while (waitpid(encoder_, &status, 0) < 0 && errno == EINTR) {
-  }
+  const bool content = wait_for(encoder_);
   encoder_ = -1;
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  return content;
 }
 
 void Movie::fail_with_messages(const char* what) {
