@@ -75,7 +75,7 @@ function study.obstacle(self, way)
   if not way.implicit then return nil end
   for _, rule in ipairs(self.model.about.rules) do
     if not rule.traced then
-      return string.format("it needs derivatives of the rules, and the %s rule of %s cannot be traced", rule.rule, rule.where)
+      return string.format("it needs derivatives of the rules, and the %s rule of %s cannot be traced (finite differences would stand in, but a chart of them says little)", rule.rule, rule.where)
     end
   end
 end
