@@ -95,7 +95,7 @@ class Elimination {
     while (waiting_[l_.across[up]] == gone) ++up;
     const Index p = l_.across[up];
     Index down = first_[p];
-    while (l_.wall[down] != l_.wall[up]) ++down;
+    while (l_.across[down] != c) ++down;  // two walls between the same cells would be a cycle
     const double k_up = k_[up], k_down = k_[down], pivot = e_[c] + k_up;
     if (!(k_up >= 0) || !(k_down >= 0)) return refused;
     if (!(pivot > 0))
