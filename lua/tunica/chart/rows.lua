@@ -8,10 +8,10 @@ local rows = {}
 
 -- A row is a table by these names; `by` is "dt" or "tolerance". Numbers, but for method, by, failure, detail.
 local fields = { "method", "by", "setting", "error", "means", "seconds", "spread", "repeats", "evaluations", "steps", "rejected",
-  "jacobians", "factorizations", "newton_iterations", "linear_iterations", "failure", "detail", "front" }
+  "jacobians", "factorizations", "newton_iterations", "linear_iterations", "failure", "detail", "wall", "front" }
 local texts = { method = true, by = true, failure = true, detail = true }
 local header = "method,setting of,setting,error,error of means,CPU seconds,spread of seconds,repeats,evaluations,steps,rejected,jacobians," ..
-  "factorizations,newton iterations,linear iterations,failure,detail,front"
+  "factorizations,newton iterations,linear iterations,failure,detail,seconds of the clock,front"
 local cells_differ = "cells differ"
 
 function rows.key(method, by, setting) return string.format("%s %s %s", method, by, core.shortest(setting)) end
