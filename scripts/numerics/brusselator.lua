@@ -4,7 +4,7 @@
 -- HOW     du/dt = A - (B + 1) u + u^2 v + Du lap u, dv/dt = B u - u^2 v + Dv lap v; the sum over neighbours stands for the Laplacian.
 --         From rest, u = A and v = B / A, with a little noise. Patterns need B > (1 + A sqrt(Du / Dv))^2, rest of the whole
 --         needs B < 1 + A^2.
--- TRY     B=9.5 (nearer to rest: waves in time)   B=6.2 (no pattern)   sheet=true (irregular cells)   dt=0.02 (too long: it fails)
+-- TRY     B=4 (no pattern)   B=5 (weak spots, slow to come)   sheet=true (irregular cells)   dt=0.03 (too long: it fails)
 -- SOURCE  I. Prigogine, R. Lefever, J. Chem. Phys. 48 (1968) 1695; the patterns: B. Pena, C. Perez-Garcia, Phys. Rev. E 64
 --         (2001) 056213
 local tunica = require "tunica"
@@ -13,9 +13,9 @@ local P = tunica.params {
   cells = { 40, "cells along a side", min = 3 },
   sheet = { false, "irregular cells, as of a tissue that has grown, instead of hexagons" },
   A = { 3, "supply of u", min = 1e-6 },
-  B = { 9, "turnover of u to v", min = 0 },
-  Du = { 0.8, "diffusion of u", min = 0 },
-  Dv = { 6.4, "diffusion of v", min = 0 },
+  B = { 6, "turnover of u to v", min = 0 },
+  Du = { 1, "diffusion of u", min = 0 },
+  Dv = { 8, "diffusion of v", min = 0 },
   noise = { 0.01, "at the start, relative", min = 0, max = 1 },
   dt = { 0.01, "time step", min = 1e-9 },
   method = "euler",
