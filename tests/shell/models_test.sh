@@ -68,5 +68,9 @@ short patterning/activator_inhibitor 10
 short patterning/real_apex 2
 short growth/dividing_sheet 2
 short growth/cylinder 6
+short numerics/gradient_line 20
+short numerics/activator_inhibitor 2
+short numerics/brusselator 1
+short numerics/gray_scott 10
 
 finish
