@@ -85,7 +85,7 @@ op { name = "tunica.model", kind = "named", returns = "a model",
     { name = "params", type = "any", doc = "the table that tunica.params gave" },
     { name = "dt", type = "number", above = 0, unit = "time", doc = dt_doc },
     { name = "method", type = "string", choices = names_of_methods, doc = method_doc .. "; if not given, euler where dt is given, else auto" },
-    { name = "tolerance", type = "number", above = 0, doc = tolerance_doc .. "; 1e-6 if not given" },
+    { name = "tolerance", type = "number", above = 0, max = 1, doc = tolerance_doc .. "; 1e-6 if not given" },
     { name = "threads", type = "integer", min = 1, max = 64, default = 1, doc = "threads for tissues of 5,000 cells and more; the result does not depend on it" },
     { name = "stop", type = "number", min = 0, unit = "time", doc = "when a batch run ends, unless --until says so" },
     { name = "signed", type = "list", of = "string", default = {}, doc = "columns that may become negative" },
@@ -512,7 +512,7 @@ op { name = "model:snapshot", returns = "text", example = diffusion .. "print(#m
   end }
 
 op { name = "model:restore", changes = true, args = { { name = "snapshot", type = "string", required = true, doc = "what model:snapshot() gave" } },
-  doc = "Goes back to a snapshot of the same script.", example = diffusion .. "local s = model:snapshot() model:advance(1) model:restore(s) print(model.time)",
+  doc = "Goes back to a snapshot of the same script. The method stays the one in use (model:solve_with).", example = diffusion .. "local s = model:snapshot() model:advance(1) model:restore(s) print(model.time)",
   fn = function(model, bytes)
     local my = inside[model]
     local parts = core.unpack(bytes)
@@ -547,7 +547,7 @@ op { name = "model:solve_with", kind = "named",
   doc = "Changes how the model is solved from now on; state and time stay. A new method begins with its own dt (fixed steps: the old one, unless given) and tolerance.",
   args = { { name = "method", type = "string", choices = names_of_methods, doc = method_doc },
     { name = "dt", type = "number", above = 0, unit = "time", doc = dt_doc },
-    { name = "tolerance", type = "number", above = 0, doc = tolerance_doc } },
+    { name = "tolerance", type = "number", above = 0, max = 1, doc = tolerance_doc } },
   example = diffusion .. "model:advance(1) model:solve_with { method = 'rkc2', tolerance = 1e-5 } model:advance(2) print(model.cost.evaluations)",
   fn = function(model, o)
     local my = inside[model]
@@ -599,7 +599,7 @@ end
 
 op { name = "model:steady", kind = "named", source = "thesis 9.5",
   returns = "a table: how (elimination, sparse factors, newton), iterations, residual, growth (largest real part found among the eigenvalues of the Jacobian), stable",
-  doc = "Goes to a state in which nothing changes; time stays, events do not happen. Linear rules are solved directly, others by Newton's method from the present state. If there is none, or it is not determined, nothing changes.",
+  doc = "Goes to a state in which nothing changes by the rates as they are at the present time; time stays, events do not happen. Linear rules are solved directly, others by Newton's method from the present state. If there is none, or it is not determined, nothing changes.",
   args = { { name = "tolerance", type = "number", above = 0, default = 1e-10, doc = "of what is left of the rates, relative to their terms" },
     { name = "stability", type = "boolean", default = true, doc = "whether to look if small disturbances decay" } },
   example = header .. [[model:rate(function(c, d) d.auxin = 1 - c.auxin + c:sum(function(n) return n.auxin - c.auxin end) end) print(model:steady().stable)]],

@@ -32,7 +32,14 @@ int steady(lua_State* L) {
     y.resize(system.state_size());
     system.read_state(y.data());
     const Locked locked(system.tissue());
-    const Steady found = find_steady(system, m.integrator->time(), y.data(), options);
+    const std::vector<double> before(y.data(), y.data() + y.size());
+    Steady found;
+    try {
+      found = find_steady(system, m.integrator->time(), y.data(), options);
+    } catch (...) {
+      system.write_state(before.data());  // rules that run as they are have seen what was tried
+      throw;
+    }
     system.write_state(y.data());
     lua_createtable(L, 0, 6);
     lua_pushstring(L, found.how.c_str());

@@ -25,6 +25,13 @@ void homes(const Tissue& t, Kind kind, Index element, std::vector<int32_t>& cell
   }
 }
 
+/// Largest magnitude in a column; 1 if all are zero.
+double largest(const double* values, Index count) {
+  double found = 0;
+  for (Index i = 0; i < count; ++i) found = std::max(found, std::fabs(values[i]));
+  return found > 0 ? found : 1;
+}
+
 }  // namespace
 
 void Differences::prepare(const std::vector<int32_t>& offsets, SparseRows& j) {
@@ -42,6 +49,11 @@ void Differences::find_reach(SparseRows& j) {
   AlignedBuffer y;
   y.resize(system_.state_size());
   system_.read_state(y.data());
+  struct Restore {
+    System& system;
+    const double* state;
+    ~Restore() { system.write_state(state); }
+  } restore{system_, y.data()};  // rules that run as they are see what is tried in the tissue
   evaluate(0, y.data(), j);
   while (!holds(0, y.data(), j)) {
     if (++reach_ > furthest)
@@ -53,7 +65,6 @@ void Differences::find_reach(SparseRows& j) {
     build(j);
     evaluate(0, y.data(), j);
   }
-  system_.write_state(y.data());
 }
 
 /// Per cell: those at most reach_ walls away.
@@ -128,12 +139,12 @@ void Differences::evaluate(double t, const double* y, SparseRows& j) {
   const size_t size = system_.state_size();
   system_.rates(t, y, base_.data());
   std::copy(y, y + size, moved_.data());
-  std::vector<double> scale(system_.state().size(), 0.0), step(place_.size());
-  for (size_t k = 0; k < scale.size(); ++k) {
+  std::vector<double> step(place_.size());
+  for (size_t k = 0; k < system_.state().size(); ++k) {
     const System::StateColumn& s = system_.state()[k];
-    for (Index i = 0; i < s.count; ++i) scale[k] = std::max(scale[k], std::fabs(y[s.offset + i]));
+    const double scale = largest(y + s.offset, s.count);
     for (Index i = 0; i < s.count; ++i) {
-      const double at = y[s.offset + i], wanted = relative_step * std::max({std::fabs(at), 1e-3 * scale[k], 1e-12});
+      const double at = y[s.offset + i], wanted = relative_step * std::max(std::fabs(at), 1e-3 * scale);
       step[offsets_[k] + i] = (at + wanted) - at;  // what is in fact added
     }
   }
@@ -150,21 +161,24 @@ void Differences::evaluate(double t, const double* y, SparseRows& j) {
 bool Differences::holds(double t, const double* y, const SparseRows& j) {
   const int n = j.rows();
   std::vector<double> v(n), product(n);
-  double largest = 0, worst = 0;
-  for (int u = 0; u < n; ++u) {
-    v[u] = (0.5 + uniform({17, purpose("differences"), static_cast<uint64_t>(u)})) *
-           std::max(1e-3, std::fabs(y[place_[u]]));
-    moved_.data()[place_[u]] = y[place_[u]] + 1e-6 * v[u];
+  double most = 0, worst = 0;
+  for (size_t k = 0; k < system_.state().size(); ++k) {
+    const double scale = largest(y + system_.state()[k].offset, system_.state()[k].count);
+    for (int u = offsets_[k]; u < offsets_[k + 1]; ++u) {
+      v[u] = (0.5 + uniform({17, purpose("differences"), static_cast<uint64_t>(u)})) *
+             std::max(1e-3 * scale, std::fabs(y[place_[u]]));
+      moved_.data()[place_[u]] = y[place_[u]] + 1e-6 * v[u];
+    }
   }
   system_.rates(t, moved_.data(), rates_.data());
   j.multiply(v.data(), product.data());
   for (int row = 0; row < n; ++row) {
     const double seen = (rates_.data()[place_[row]] - base_.data()[place_[row]]) / 1e-6;
-    largest = std::max(largest, std::fabs(seen));
+    most = std::max(most, std::fabs(seen));
     const double difference = std::fabs(seen - product[row]);
     if (!(difference <= worst)) worst = difference;
   }
-  return worst <= 1e-3 * largest || !std::isfinite(largest);
+  return worst <= 1e-3 * most || !std::isfinite(most);
 }
 
 }  // namespace tunica

@@ -40,7 +40,9 @@ using Owned = std::unique_ptr<std::remove_pointer_t<T>, Free>;
 
 class Bdf : public Stepper {
  public:
-  explicit Bdf(const StepperOptions& options) : norm_(share_of_tolerance * options.tolerance) { SUNContext_Create(nullptr, &context_); }
+  explicit Bdf(const StepperOptions& options) : norm_(share_of_tolerance * options.tolerance) {
+    SUNContext_Create(nullptr, &context_);
+  }
   ~Bdf() override {
     release();
     SUNContext_Free(&context_);
@@ -52,16 +54,20 @@ class Bdf : public Stepper {
 
   void restart(System& system, double t, const double* y) override {
     attach(system);
-    begin(system, t, y);
+    if (jacobian_->size() > 0) begin(system, t, y);
     pending_ = false;
   }
 
   StepResult step(System& system, double t, const double* y, double h, double* y_new) override {
     attach(system);
+    if (jacobian_->size() == 0) return {.taken = h};
     if (pending_) take_again(system);
-    if (!begun_ || taken_ >= steps_to_restart) begin(system, t, y);
+    // A step that was not accepted has left the library's history ahead of the state.
+    if (!begun_ || tried_ || taken_ >= steps_to_restart) begin(system, t, y);
+    tried_ = true;
     return advance(system, t + h, y_new);
   }
+  void accepted() override { tried_ = false; }
 
   void save(ByteWriter& out) const override;
   void load(ByteReader& in) override;
@@ -103,7 +109,9 @@ class Bdf : public Stepper {
   Owned<SUNMatrix> matrix_;
   Owned<SUNLinearSolver> solver_;
   BlockPreconditioner preconditioner_;
-  bool direct_ = true, begun_ = false, pending_ = false;
+  bool direct_ = true, begun_ = false;
+  bool pending_ = false;  ///< the steps since the beginning are still to be taken again
+  bool tried_ = false;    ///< the last step was not accepted
   AlignedBuffer state_, rates_;
   std::exception_ptr thrown_;
   // Where it began, and the steps since: their number towards each stop.
@@ -206,6 +214,7 @@ void Bdf::attach(System& system) {
 void Bdf::build() {
   release();
   const int n = jacobian_->size();
+  if (n == 0) return;
   direct_ = n <= most_for_direct;
   y_.reset(N_VNew_Serial(n, context_));
   N_VConst(0, y_.get());
@@ -238,6 +247,7 @@ void Bdf::build() {
 
 void Bdf::begin(System& system, double t, const double* y) {
   jacobian_->gather(y, N_VGetArrayPointer(y_.get()));
+  tried_ = false;
   origin_ = t;
   origin_state_.assign(y, y + system.state_size());
   stops_.clear();
@@ -282,17 +292,26 @@ StepResult Bdf::failed(int flag) const {
 }
 
 void Bdf::take_again(System& system) {
-  pending_ = false;
-  const std::vector<double> y = origin_state_;
+  AlignedBuffer y;
+  y.resize(origin_state_.size());
+  std::copy(origin_state_.begin(), origin_state_.end(), y.data());
   const auto stops = stops_;
   const Work before = work_;
-  begin(system, origin_, y.data());
-  for (const auto& [stop, count] : stops)
-    for (int i = 0; i < count; ++i) {
-      const StepResult result = advance(system, stop, state_.data());
-      if (result.failed) fail("internal: steps of a checkpoint could not be taken again: {}", result.detail);
-    }
+  try {
+    begin(system, origin_, y.data());
+    for (const auto& [stop, count] : stops)
+      for (int i = 0; i < count; ++i) {
+        const StepResult result = advance(system, stop, state_.data());
+        if (result.failed) fail("internal: steps of a checkpoint could not be taken again: {}", result.detail);
+      }
+  } catch (...) {  // broken off: all of them are still to be taken
+    stops_ = stops;
+    work_ = before;
+    pending_ = true;
+    throw;
+  }
   work_ = before;
+  pending_ = false;
 }
 
 void Bdf::save(ByteWriter& out) const {

@@ -2,6 +2,7 @@
 #include "solve/implicit.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "solve/newton.h"
 
@@ -64,7 +65,7 @@ std::unique_ptr<Stepper> make_crank_nicolson(const StepperOptions& options) {
 
 std::unique_ptr<Stepper> make_bicg(const StepperOptions& options) {
   auto method = std::make_unique<Theta>("bicg", 0.5, options);
-  method->use_biconjugate_gradients(options.tolerance * options.tolerance);
+  method->use_biconjugate_gradients(std::sqrt(options.tolerance));
   return method;
 }
 

@@ -93,8 +93,9 @@ void Integrator::adaptive_step(double target) {
     double h = std::min(own && !rejected_ ? Integrator::unlimited : next_, dt_);
     const bool shortened = t + 1.0001 * h >= target;
     if (shortened) h = exact_length(t, target);
-    longest_ = std::max(longest_, h);
+    if (!own) longest_ = std::max(longest_, h);
     const StepResult result = stepper_->step(*system_, t, y_.data(), h, y_new_.data());
+    if (own) longest_ = std::max(longest_, result.taken);
     std::optional<Watch::Symptom> symptom;
     if (!result.failed) symptom = watch_.state(*system_, y_.data(), y_new_.data(), result.flags, margin());
     if (!result.failed && !symptom && result.error <= 1) {

@@ -115,9 +115,8 @@ void Newton::save(ByteWriter& out) const {
   out.put(factored_g_);
   out.put(factored_t_);
   out.put(gained_);
-  out.put(static_cast<uint64_t>(factored_ ? factored_y_.size() : 0));
-  if (factored_)
-    for (const double y : factored_y_) out.put(y);
+  out.put(static_cast<uint64_t>(factored_y_.size()));
+  for (const double y : factored_y_) out.put(y);
 }
 
 void Newton::load(ByteReader& in) {

@@ -22,6 +22,9 @@ class Search {
   Steady run() {
     if (jacobian_.linear()) {
       if (!by_elimination()) by_factors();
+      if (!(result_.residual <= std::max(options_.tolerance, 1e-12)))
+        fail("the steady state that was found leaves a residual of {:.3g}: the rates are too nearly undetermined",
+             result_.residual);
     } else {
       by_newton();
     }

@@ -8,6 +8,8 @@ namespace tunica {
 
 namespace {
 
+constexpr double noise = 1e-100;  ///< what is left of something that has long decayed
+
 constexpr uint64_t watch_interval = 128, watch_length = 6;
 
 /// Flags of one column, by a loop that vector units can run.
@@ -60,7 +62,7 @@ std::optional<Watch::Symptom> Watch::state(const System& system, const double* y
       const double* old = y + s.offset;
       const double largest = *std::max_element(old, old + s.count);
       for (Index i = 0; i < s.count; ++i)
-        if (values[i] < -margin * largest) return Symptom{"negative", k, i, values[i]};
+        if (values[i] < -std::max(margin * largest, noise)) return Symptom{"negative", k, i, values[i]};
     }
   }
   return {};
