@@ -36,6 +36,7 @@ LinearOutcome biconjugate_gradient(const SparseRows& j, double d, double g, doub
   const size_t n = b.size();
   Vector x(n, 0.0), r = b, shadow = b, p = b, p_shadow = b, q(n), q_shadow(n);
   double rho = dot(shadow, r);
+  if (!std::isfinite(rho)) return {false, 0};
   if (rho == 0) return {true, 0};
   const double goal = tolerance * tolerance * rho;
   for (uint64_t i = 0; i < std::max<size_t>(n, 1000); ++i) {

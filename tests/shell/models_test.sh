@@ -45,7 +45,7 @@ awk -v a="$sharp" -v b="$(value model.below_60_degrees)" 'BEGIN { exit !(a < b) 
 short() { # model end arguments
   local model=$1 end=$2 name expected
   shift 2
-  name=$(basename "$model")
+  name=${model//\//_}
   code 0 "$tunica" "$model" "$@" --until "$end" -q --no-frames --out "bits_${name}_1"
   expected=$(value hash)
   [ -n "$expected" ] || wrong "$model reports no hash"
