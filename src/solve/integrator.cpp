@@ -239,7 +239,11 @@ void Integrator::refuse(const Watch::Symptom& symptom, double time, const std::s
 
 void Integrator::refuse_method(const StepResult& result, double time) {
   // Newton's method and its like only see that something is wrong; where, the rates say.
-  if (const auto bad = bad_rate(time, y_.data())) {
+  // A method with steps of its own stops just short of a jump in time.
+  std::optional<Watch::Symptom> bad = bad_rate(time, y_.data());
+  for (const double ahead : {1e-6 * (std::fabs(time) + longest_), longest_})
+    if (!bad && adaptive()) bad = bad_rate(time + ahead, y_.data());
+  if (bad) {
     Watch::Symptom rate = *bad;
     rate.kind = "not finite";
     refuse(
