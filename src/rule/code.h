@@ -30,6 +30,7 @@ enum class Code : uint8_t {
   multiply_add,       ///< a * b + c
   multiply_subtract,  ///< a * b - c
   subtract_multiply,  ///< c - a * b
+  subtract_max,       ///< max(a - b, c)
   copy,
   elementwise_count,
   // cell passes

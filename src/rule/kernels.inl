@@ -78,6 +78,7 @@ inline V operate(V a, V b, V c) {
   if constexpr (code == Code::multiply_add) return a * b + c;
   if constexpr (code == Code::multiply_subtract) return a * b - c;
   if constexpr (code == Code::subtract_multiply) return c - a * b;
+  if constexpr (code == Code::subtract_max) return operate<Code::max>(a - b, c, c);
   return a;
 }
 

@@ -201,28 +201,31 @@ class Planner {
     return i.dst;
   }
 
-  /// a*b+c and its like in one sweep, when the product is needed nowhere else.
+  /// a*b+c, max(a-b, c) and their like in one sweep, when the inner value is needed nowhere else.
   template <class Value>
   bool fuse(const Emitter& e, const Node& n, int at_level, Instruction& i, Value value) {
-    const auto product = [&](NodeId x) {
-      return x != no_node && graph_[x].op == Op::mul && graph_[x].domain != Domain::scalar && uses_.at(x) == 1 &&
+    const auto needed_here_only = [&](NodeId x, Op op) {
+      return x != no_node && graph_[x].op == op && graph_[x].domain != Domain::scalar && uses_.at(x) == 1 &&
              !e.where.count(x) && !kept_.count(x) && !edge_temp_.count(x) && !wall_temp_.count(x) &&
              level(x) == at_level;
     };
-    NodeId mul, other;
+    const auto product = [&](NodeId x) { return needed_here_only(x, Op::mul); };
+    NodeId inner, other;
     if (n.op == Op::add && product(n.a)) {
-      i.code = Code::multiply_add, mul = n.a, other = n.b;
+      i.code = Code::multiply_add, inner = n.a, other = n.b;
     } else if (n.op == Op::add && product(n.b)) {
-      i.code = Code::multiply_add, mul = n.b, other = n.a;
+      i.code = Code::multiply_add, inner = n.b, other = n.a;
     } else if (n.op == Op::sub && product(n.a)) {
-      i.code = Code::multiply_subtract, mul = n.a, other = n.b;
+      i.code = Code::multiply_subtract, inner = n.a, other = n.b;
     } else if (n.op == Op::sub && product(n.b)) {
-      i.code = Code::subtract_multiply, mul = n.b, other = n.a;
+      i.code = Code::subtract_multiply, inner = n.b, other = n.a;
+    } else if (n.op == Op::max && needed_here_only(n.a, Op::sub)) {
+      i.code = Code::subtract_max, inner = n.a, other = n.b;
     } else {
       return false;
     }
-    i.a = value(graph_[mul].a);
-    i.b = value(graph_[mul].b);
+    i.a = value(graph_[inner].a);
+    i.b = value(graph_[inner].b);
     i.c = value(other);
     return true;
   }
