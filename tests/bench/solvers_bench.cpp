@@ -226,7 +226,7 @@ int main(int, char** argv) {
   const std::string folder = std::string(argv[0]).substr(0, std::string(argv[0]).rfind('/'));
   const std::string program = folder + "/../tunica", script = TUNICA_BENCH_FOLDER "/solvers.lua";
   const std::string explicit_ones =
-      "rkc2 0 1e-5;rkc2 0 3e-6;rkc2 0 1e-6;rkc2 0 1e-7;rkc2 0 3e-8;rkc2 0.1 0;rkc2 1 0;heun {0} 0;bs32 0 "
+      "rkc2 0 1e-5;rkc2 0 3e-6;rkc2 0 1e-6;rkc2 0 1e-7;rkc2 0 3e-8;rkc2 0.1 0;rkc2 1 0;rkc2 1.2 0;heun {0} 0;bs32 0 "
       "1e-4;auto 0 1e-6;auto 0 1e-7;";
   const std::string implicit = "crank_nicolson 0.5 0;crank_nicolson 0.1 0;bdf 0 1e-5;bdf 0 1e-6;";
   fmt::print(
@@ -235,7 +235,7 @@ int main(int, char** argv) {
           "euler 0.025 0;" + fmt::format(fmt::runtime(explicit_ones), 0.05) + implicit, {1e-4, 1e-5, 1e-6});
   compare(program, script, "stiff", 50, 100, 45,
           "euler 0.0006 0;" + fmt::format(fmt::runtime(explicit_ones), 0.002) + implicit, {1e-5, 1e-6, 1e-7});
-  compare(program, script, "mild, large", 200, 4, 150, "euler 0.025 0;rkc2 0 3e-6;rkc2 0 1e-6;rkc2 1 0;auto 0 1e-6;",
+  compare(program, script, "mild, large", 200, 4, 150, "euler 0.025 0;rkc2 0 3e-6;rkc2 0 1e-6;rkc2 1 0;rkc2 1.2 0;auto 0 1e-6;",
           {1e-5});
   compare(program, script, "stiff, large", 200, 100, 45,
           "euler 0.0024 0;rkc2 0 1e-7;rkc2 0 3e-8;rkc2 0.1 0;auto 0 3e-8;", {1e-5});
