@@ -20,6 +20,7 @@ constexpr int least_steps = 3, trial_steps = 14;
 constexpr uint64_t trial_evaluations = 400;  ///< and no more than so many evaluations
 /// Work between choices, in trials: at first, and after many that changed nothing.
 constexpr double least_patience = 4, most_patience = 40;
+constexpr double least_wait = 100;  ///< evaluations
 /// Methods whose steps are as long as they are stable must beat rkc2 by so much: its steps can grow when the state
 /// grows smooth, theirs cannot.
 constexpr double advantage = 1.6;
@@ -129,9 +130,12 @@ class Auto : public Stepper {
     if (!compared_) return true;
     if (in_step_ > 0) return false;  // between attempts at one step
     if (which_ != bdf && stages_ > many_stages && since_ > 4 * many_stages) return true;
-    const bool different = recent_ > changed * expected_ || recent_ * changed < expected_;
+    // That rkc2 has become cheaper still is no reason to look at others: what they cost at best does not fall.
+    const bool different = recent_ > changed * expected_ || (which_ != rkc && recent_ * changed < expected_);
     const double waits = different ? std::min(patience_, least_patience) : patience_;
-    return static_cast<double>(since_) > waits * static_cast<double>(spent_on_trials_);
+    // Another look mostly tries rkc2 alone: the others' least costs are known.
+    const double look = std::min(static_cast<double>(spent_on_trials_), which_ == rkc ? 1e300 : least_wait / 2);
+    return static_cast<double>(since_) > std::max(least_wait, waits * look);
   }
 
   /// What the method in use has done, added to what others did before it and to the trials.
@@ -151,6 +155,10 @@ class Auto : public Stepper {
     const double rho = radius(system, t, y);
     std::array<Trial, candidates.size()> trials;
     int best = rkc;
+    double enough = INFINITY;  // rkc2 need not show more than that it beats what the others cost at best
+    for (int k = 0; k < bdf; ++k)
+      if (k != rkc)
+        enough = std::min(enough, candidates[k].weight * candidates[k].evaluations * rho / candidates[k].stability);
     for (int k = 0; k < bdf; ++k) {
       const Candidate& c = candidates[k];
       // What it costs at best, with steps as long as it is stable: no trial is needed where that is too much already.
@@ -160,7 +168,7 @@ class Auto : public Stepper {
       if (compared_ && k == which_ && recent_ > 0)
         trials[k] = {recent_, length_};  // known from its steps
       else
-        trials[k] = attempt(system, k, t, y, h);
+        trials[k] = attempt(system, k, t, y, h, k == rkc ? enough : 0);
       const bool bounded = c.stability > 0 && trials[k].length * rho > 0.5 * c.stability;
       if (trials[k].cost * (bounded && best == rkc ? advantage : 1) < trials[best].cost) best = k;
     }
@@ -191,8 +199,9 @@ class Auto : public Stepper {
     return jacobian.missing().empty() && jacobian.kinks().empty();
   }
 
-  /// A few steps with one method from the state at hand, which stays what it is.
-  Trial attempt(System& system, int which, double t, const double* y, double h) {
+  /// A few steps with one method from the state at hand, which stays what it is; fewer once they cost less than
+  /// `enough`.
+  Trial attempt(System& system, int which, double t, const double* y, double h, double enough) {
     const auto method = candidates[which].make({.tolerance = options_.tolerance});
     const size_t size = system.state_size();
     for (AlignedBuffer* buffer : {&trial_, &trial_new_})
@@ -215,7 +224,7 @@ class Auto : public Stepper {
         ++accepted;
       }
       const double factor = std::clamp(0.9 * std::pow(error, -1.0 / method->error_order()), 0.2, 5.0);
-      if (error <= 1 && accepted >= least_steps && factor < 1.5) break;
+      if (error <= 1 && accepted >= least_steps && (factor < 1.5 || found.cost < enough)) break;
       h = (r.taken > 0 ? r.taken : h) * factor;
     }
     work_.evaluations += method->work().evaluations;
