@@ -200,15 +200,7 @@ end
 
 --- close(chart, message, code) -> exit code. Whatever happened, the rows that are there are kept and shown.
 function chart.close(self, message, code)
-  local interrupted = code ~= 0 and not message
-  if message then study.complain(self, "%s", message) end
-  if self.reference and #self.rows > 0 then
-    local ok, why = pcall(conclude, self)
-    if not ok then study.complain(self, "%s", tostring(why)) end
-    if not ok and code == 0 then code = study.exit.files end
-  end
-  if interrupted then study.note(self, "interrupted; to continue: the same command with --out %s", self.folder) end
-  return message and self.code ~= 0 and self.code or message and math.max(code, 1) or code
+  return study.close(self, message, code, self.reference and #self.rows > 0 and conclude)
 end
 
 return chart

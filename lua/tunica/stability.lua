@@ -155,15 +155,7 @@ end
 
 --- close(study, message, code) -> exit code. Whatever happened, the trials that were made are kept.
 function stability.close(self, message, code)
-  local interrupted = code ~= 0 and not message
-  if message then study.complain(self, "%s", message) end
-  if #self.results > 0 then
-    local ok, why = pcall(conclude, self)
-    if not ok then study.complain(self, "%s", tostring(why)) end
-    if not ok and code == 0 then code = study.exit.files end
-  end
-  if interrupted then study.note(self, "interrupted; to continue: the same command with --out %s", self.folder) end
-  return message and self.code ~= 0 and self.code or message and math.max(code, 1) or code
+  return study.close(self, message, code, #self.results > 0 and conclude)
 end
 
 return stability

@@ -220,4 +220,17 @@ function study.columns(rows, right)
   return table.concat(lines, "\n") .. "\n"
 end
 
+--- The end of a study, whatever brought it about: `conclude(self)`, if there is anything to show, then the exit code.
+function study.close(self, message, code, conclude)
+  local interrupted = code ~= 0 and not message
+  if message then study.complain(self, "%s", message) end
+  if conclude then
+    local ok, why = pcall(conclude, self)
+    if not ok then study.complain(self, "%s", tostring(why)) end
+    if not ok and code == 0 then code = study.exit.files end
+  end
+  if interrupted then study.note(self, "interrupted; to continue: the same command with --out %s", self.folder) end
+  return message and self.code ~= 0 and self.code or message and math.max(code, 1) or code
+end
+
 return study
