@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "shape/bspline.h"
+
+namespace tunica {
+
+/// The profile of a surface of revolution: a planar curve from the tip down, (x, y) = (distance from the axis, height),
+/// by arc length a from its start (thesis 3.3). It may start away from the axis; the surface then has a hole at the
+/// tip. Beyond its end it goes straight on (downwards, if it ends towards the axis). Places are exact to 1e-10 of its
+/// length.
+class Profile {
+ public:
+  /// Errors: a curve that crosses the axis (x < 0), that rises (it must start at its top), that turns back on itself,
+  /// or whose length is not positive.
+  explicit Profile(BSpline curve);
+  /// A part of a sphere around a point of the axis, from the tip until it falls by `slope` (radians, above 0, at most
+  /// pi/2), then straight, until `length` in all. Exact.
+  static Profile cap(double radius, double slope, double length);
+  /// From one point straight to another. Exact.
+  static Profile line(const Vec2& from, const Vec2& to) { return Profile(BSpline({from, to}, 1, Ends::clamped)); }
+
+  double length() const { return panels_.back().a; }
+  Vec2 at(double a) const;       ///< a below 0: the start
+  Vec2 tangent(double a) const;  ///< unit, in the sense of growing a; at a corner that of what follows
+  /// The area of the surface from its start to a: the integral of 2 pi x da.
+  double area(double a) const;
+  /// The first a with x(a) = r. Errors: r beyond the widest place, or within the hole.
+  double arc_at_radius(double r) const;
+  /// The a of the point nearest to p, the smallest of several.
+  double closest(const Vec2& p) const;
+
+  double hole() const { return start_.x(); }  ///< radius of the hole at the tip; 0: none
+  bool has_hole() const { return hole() > 0; }
+  double widest() const { return widest_; }  ///< largest x on the curve, its continuation not counted
+  /// The control points, of a profile made from a curve.
+  const std::optional<BSpline>& curve() const { return curve_; }
+
+ private:
+  /// The curve is smooth between two of these places, and Gauss's rule of 12 points gives its length there.
+  struct Panel {
+    double u, a, area;  ///< parameter; arc length and area since the start
+  };
+  struct Sample {
+    double u;
+    Vec2 point;
+  };
+  struct Cap {
+    double radius, slope;
+  };
+  Profile(const Cap& cap, double length);
+  void evaluate(double u, Vec2& point, Vec2& derivative) const;
+  Vec2 point_at(double u) const;
+  Vec2 direction(double u) const;
+  double speed(double u) const;
+  double ring(double u) const;  ///< of the area, per u
+  void measure(const std::vector<double>& breaks);
+  void add_panels(double from, double to, int depth);
+  void take_samples();
+  void check() const;
+  size_t panel_at_arc(double a) const;
+  double parameter(double a) const;
+  double arc(double u) const;
+  double nearest_between(const Vec2& p, double low, double high) const;
+
+  std::optional<BSpline> curve_;
+  Cap cap_{};
+  std::vector<Panel> panels_;  ///< their starts, and the end of the last
+  std::vector<Sample> samples_;
+  Vec2 start_, end_, onward_;  ///< onward: direction beyond the end
+  double size_ = 1, widest_ = 0;
+};
+
+}  // namespace tunica
