@@ -4,7 +4,7 @@
 local core = require "tunica.core"
 local registry = require "tunica.registry"
 local params = require "tunica.params"
-local plain = require "tunica.plain"
+local course = require "tunica.course"
 local conditions = require "tunica.conditions"
 local binding = require "tunica.binding"
 local values_of, settle, with_rules, can_know_more = binding.values_of, binding.settle, binding.with_rules, binding.can_know_more
@@ -150,89 +150,21 @@ op { name = "model:flux", changes = true, returns = nil, source = "thesis 5.9",
 
 -- Events ----------------------------------------------------------------------------------------------------------------
 
-local function event(kind, time, fn) return { kind = kind, time = time, fn = fn, fired = 0 } end
+course.operations("model", inside, diffusion, {
+  doc = "It is asked at the start, after events, and after each step; when it has become true in a step, the step is taken anew to end where it did.",
+  located = "false: it happens at the end of the step, and changes no step; for what only watches",
+  example = "model:when(function() return tissue:max 'auxin' < 1.01 end, function(t) print(t) end)",
+  report = "most = function() return tissue:max 'auxin' end" })
 
--- So many events in one step are a mistake in a unit; far shorter intervals would fire for ever and not move the time.
-local most_in_a_step = 1000
-
-op { name = "model:every", changes = true, fn = function(model, interval, fn)
-    local dt = inside[model].dt
-    if dt and interval < dt / most_in_a_step then
-      fail("model:every: the interval %.6g is far below the model's step dt = %.6g: more than %d events in a step", interval, dt,
-        most_in_a_step)
-    end
-    local e = event("every", interval, fn)
-    e.fired = math.floor(model.time / interval + 1e-9)  -- those before now are past
-    table.insert(inside[model].events, e)
-  end,
-  args = { { name = "interval", type = "number", above = 0, required = true, unit = "time", doc = "first after one interval" },
-    { name = "event", type = "function", required = true, doc = "function(t)" } },
-  doc = "Something that happens at regular times: growth, division.", example = diffusion .. "model:every(1, function(t) print(t) end)" }
-op { name = "model:at", changes = true, fn = function(model, time, fn) table.insert(inside[model].events, event("at", time, fn)) end,
-  args = { { name = "time", type = "number", min = 0, required = true, unit = "time", doc = "when" },
-    { name = "event", type = "function", required = true, doc = "function(t)" } },
-  doc = "Something that happens once.", example = diffusion .. "model:at(2, function() print 'now' end)" }
-op { name = "model:when", changes = true,
-  args = { { name = "condition", type = "function", required = true, doc = "function(t): true or false; it must change nothing" },
-    { name = "event", type = "function", required = true, doc = "function(t)" },
-    { name = "located", type = "boolean", default = true, doc = "false: it happens at the end of the step, and changes no step; for what only watches" } },
-  doc = "Something that happens each time a condition becomes true. It is asked at the start, after events, and after each step; when it has become true in a step, the step is taken anew to end where it did.",
-  example = diffusion .. "model:when(function() return tissue:max 'auxin' < 1.01 end, function(t) print(t) end)",
-  fn = function(model, condition, fn, located)
-    table.insert(inside[model].conditions, { test = condition, fn = fn, holds = false, located = located })
-  end }
-
--- Views and report -------------------------------------------------------------------------------------------------------
-
-op { name = "model:report", changes = true, kind = "named", rest = { type = "function" },
-  args = { { name = "every", type = "number", above = 0, unit = "time", doc = "interval of the time series; without it there is none" } },
-  doc = "What the model says at its end, by name: functions that return a number, text or a table. With `every` also as a time series.",
-  example = diffusion .. "model:report { every = 1, most = function() return tissue:max 'auxin' end }",
-  fn = function(model, o)
-    local my = inside[model]
-    my.report_every = o.every or my.report_every
-    for name, fn in pairs(o) do
-      if name ~= "every" then my.reports[#my.reports + 1] = { name = name, fn = fn } end
-    end
-  end }
+-- Views --------------------------------------------------------------------------------------------------------------------
 
 --- For view.lua, which knows what a view may hold.
 function methods.add_view(model, view) table.insert(inside[model].views, view) end
 
 -- Running ------------------------------------------------------------------------------------------------------------------
 
---- When an event is due next, or nil.
-local function due(e)
-  if e.kind == "every" then return e.time * (e.fired + 1) end
-  return e.fired == 0 and e.time or nil
-end
-
-local function next_event(my, limit)
-  local earliest = limit
-  for _, e in ipairs(my.events) do
-    local time = due(e)
-    if time and time < earliest then earliest = time end
-  end
-  return earliest
-end
-
 --- Times nearer than this are the same.
 local function slack_of(my) return (select(3, core.machine_time(my.machine))) end
-
---- True if any was due.
-local function fire_events(my, now)
-  local slack, refreshed = slack_of(my), false
-  for _, e in ipairs(my.events) do
-    local time = due(e)
-    if time and time <= now + slack then
-      if not refreshed then refresh_derived(my) end
-      refreshed = true
-      e.fn(time)
-      e.fired = e.fired + 1  -- an event that fails has not happened
-    end
-  end
-  return refreshed
-end
 
 local function step_towards(my, target, pause, deadline)
   if #my.conditions > 0 then pause = -1e300 end
@@ -251,7 +183,7 @@ end
 --- One step and more, until something may have to happen. Returns a status that ends the run, or nil.
 local function go_on(my, model, o, deadline)
   local asked, before = #my.conditions > 0, model.time
-  local target = math.max(next_event(my, o.to), before)
+  local target = math.max(course.next_event(my, o.to), before)
   if asked and select(4, core.machine_time(my.machine)) then  -- shown within a step whose end was not looked at
     core.look(my.machine, values_of(my))
     local _, last = core.last_step(my.machine)
@@ -283,7 +215,7 @@ local function advance(model, o)
   local stepped = false
   while true do
     local now, slack = model.time, slack_of(my)
-    local fired = fire_events(my, now)
+    local fired = course.fire(my, now, slack, refresh_derived)
     prepare(my)
     if fired then verify_now_and_then(my) end
     if fired or model.steps == 0 then
@@ -324,29 +256,13 @@ op { name = "model:advance", kind = "named", returns = "'done', 'paused', 'out o
 
 -- What changes, as bytes -------------------------------------------------------------------------------------------------
 
-local function functions_of(my)
-  local list = {}
-  for _, e in ipairs(my.events) do list[#list + 1] = e.fn end
-  for _, c in ipairs(my.conditions) do
-    list[#list + 1] = c.test
-    list[#list + 1] = c.fn
-  end
-  for _, r in ipairs(my.reports) do list[#list + 1] = r.fn end
-  for _, r in ipairs(my.rules) do list[#list + 1] = r.fn end
-  return list
-end
-
 op { name = "model:snapshot", returns = "text", example = diffusion .. "print(#model:snapshot())",
   doc = "Everything that changes during a run: the tissue, the time, the events, parameters, and the plain values (numbers, text, tables of them) that functions of the model keep.",
   fn = function(model)
     local my = inside[model]
     prepare(my)
-    local fired, holds = {}, {}
-    for i, e in ipairs(my.events) do fired[i] = e.fired end
-    for i, c in ipairs(my.conditions) do holds[i] = c.holds end
     return core.pack { tissue = core.tissue_save(my.tissue), machine = core.machine_save(my.machine), random = core.random_state(),
-      script = plain.encode { fired = fired, holds = holds, params = values_of(my), data = my.tissue.data,
-        upvalues = plain.upvalues(functions_of(my)), globals = plain.globals() } }
+      script = course.save(my) }
   end }
 
 op { name = "model:restore", changes = true, args = { { name = "snapshot", type = "string", required = true, doc = "what model:snapshot() gave" } },
@@ -356,21 +272,10 @@ op { name = "model:restore", changes = true, args = { { name = "snapshot", type 
     local parts = core.unpack(bytes)
     if not (parts.tissue and parts.machine and parts.script and parts.random) then fail("this is no snapshot of a model") end
     prepare(my)
-    local script = plain.decode(parts.script, my.tissue)
-    if type(script) ~= "table" or #script.fired ~= #my.events or #script.holds ~= #my.conditions then
-      fail("the snapshot is of another script: it has %d events, the model %d", type(script) == "table" and #script.fired or 0, #my.events)
-    end
+    course.check(my, parts.script)
     core.tissue_load(my.tissue, parts.tissue)
-    script = plain.decode(parts.script, my.tissue)  -- again: handles are of the tissue that is now there
     core.random_state(parts.random)
-    for i, e in ipairs(my.events) do e.fired = script.fired[i] end
-    for i, c in ipairs(my.conditions) do c.holds = script.holds[i] end
-    if my.params then
-      for name, value in pairs(script.params) do my.params[name] = value end
-    end
-    plain.refill(my.tissue.data, script.data)
-    plain.set_upvalues(functions_of(my), script.upvalues)
-    plain.set_globals(script.globals)
+    course.restore(my, parts.script)  -- handles are of the tissue that is now there
     settle(my)
     my.spent = {}
     core.machine_load(my.machine, parts.machine)
@@ -449,9 +354,6 @@ op { name = "model:steady", kind = "named", source = "thesis 9.5",
     refresh_derived(my)
     return found
   end }
-
-op { name = "model:hash", returns = "16 hexadecimal digits", doc = "A fingerprint of everything that changes; equal states have equal ones.",
-  example = diffusion .. "print(model:hash())", fn = function(model) return core.hash(model:snapshot()) end }
 
 --- For run.json: method and why, rules, warnings, cost.
 function methods.describe(model)

@@ -67,7 +67,7 @@ local function decode(text, at, tissue)
     return text:sub(at + 1, at + 1) == "1", at + 2
   elseif mark == "h" then
     local kind, id, after = text:match("^(%a+):(%d+);()", at + 1)
-    return core.find(tissue, kind, tonumber(id)), after
+    return tissue and core.find(tissue, kind, tonumber(id)), after
   elseif mark == "t" then
     local count, after = text:match("^(%d+);()", at + 1)
     local value, key, item = {}, nil, nil

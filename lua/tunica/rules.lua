@@ -132,15 +132,15 @@ local function comparison_line(fn, seen)
   end
 end
 
---- Traces one rule into `set` (core.rules). Returns nil, or why it cannot be traced.
-function rules.trace(set, rule)
-  local line = comparison_line(rule.fn, {})
+--- Calls trace(...), which calls `fn` with symbols: true, or false and why not. Returns nil, or why `fn` cannot be traced.
+function rules.with_symbols(fn, trace, ...)
+  local line = comparison_line(fn, {})
   if line then
     return string.format("line %d compares with == or ~=, which no symbol can answer; use where(equal(x, y), a, b), or decide outside the rule", line)
   end
   params.trace_hook = function(_, name, value) return core.parameter_symbol(name) or value end
   registry.tracing = true
-  local went, ok, reason = pcall(core.trace, set, rule.what, rule.kind, rule.fn, rule.where, rule.column)
+  local went, ok, reason = pcall(trace, ...)
   registry.tracing, params.trace_hook = false, nil
   if not went then error(ok, 0) end
   if ok then return nil end
@@ -149,6 +149,11 @@ function rules.trace(set, rule)
     reason = reason .. " (a rule cannot decide by <, <=, >; write where(above(x, y), a, b), min, max, clamp or step)"
   end
   return reason
+end
+
+--- Traces one rule into `set` (core.rules). Returns nil, or why it cannot be traced.
+function rules.trace(set, rule)
+  return rules.with_symbols(rule.fn, core.trace, set, rule.what, rule.kind, rule.fn, rule.where, rule.column)
 end
 
 -- Running rules as they are ----------------------------------------------------------------------------------------------

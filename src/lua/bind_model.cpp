@@ -113,6 +113,7 @@ void register_model(lua_State* L) {
   register_symbols(L);
   register_rules(L);
   register_machine(L);
+  register_phyllotaxis(L);
   const luaL_Reg functions[] = {{"tissue_save", tissue_save}, {"with_lock", with_lock},
                                 {"tissue_load", tissue_load}, {"upvalues", upvalues},
                                 {"set_upvalue", set_upvalue}, {nullptr, nullptr}};

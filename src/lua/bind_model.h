@@ -74,5 +74,7 @@ std::vector<double> parameter_values(lua_State* L, int at, const Equations& equa
 void register_rules(lua_State* L);
 /// Adds the functions that bind rules to a method and run them.
 void register_machine(lua_State* L);
+/// Adds the functions of phyllotaxis by inhibition fields.
+void register_phyllotaxis(lua_State* L);
 
 }  // namespace tunica::lua

@@ -415,6 +415,18 @@ Assignments Tracer::trace_flux(lua_State* L) {
   return {{"", value}};
 }
 
+NodeId Tracer::trace_field(lua_State* L) {
+  const Active active(L, this);
+  begin(Kind::side, false);
+  push_value(L, *this, equations->graph.column(Kind::side, 0));
+  push_value(L, *this, equations->graph.column(Kind::cell, 0));
+  push_time(L, *this);
+  call(L, 3, 1);
+  const NodeId value = node_at(L, *this, -1);
+  lua_pop(L, 1);
+  return value;
+}
+
 void register_symbols(lua_State* L) {
   lua_pushlightuserdata(L, &tracer_key);
   auto** slot = static_cast<Tracer**>(lua_newuserdata(L, sizeof(Tracer*)));

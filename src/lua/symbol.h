@@ -33,6 +33,8 @@ class Tracer {
   Assignments trace_derive(lua_State* L, Kind kind);
   Assignments trace_rate(lua_State* L, Kind kind);
   Assignments trace_flux(lua_State* L);
+  /// A field f(d, age, t) of one primordium: its value, with d as side column 0 and age as cell column 0.
+  NodeId trace_field(lua_State* L);
 
   std::shared_ptr<Equations> equations;
   std::shared_ptr<Tissue> tissue;

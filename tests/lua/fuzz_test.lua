@@ -68,7 +68,8 @@ local awkward = {
   end },
 }
 
-local is_model = require("tunica.model").is_model
+local is_tissue_model, is_phyllotaxis = require("tunica.model").is_model, require("tunica.phyllotaxis").is_phyllotaxis
+local function is_model(value) return is_tissue_model(value) or is_phyllotaxis(value) end
 local calls, errors = 0, 0
 
 --- One call: a Lua error with a text, or a valid tissue.
@@ -116,9 +117,17 @@ local function model_of(tissue)
   return model
 end
 
+local function phyllotaxis()
+  local model = tunica.phyllotaxis { path = function(age) return 1, -age end, samples = 24 }
+  model:inhibition { field = function(d, age) return math.exp(-age) / d end, below = 2 }
+  model:at(0.5, function() error "far enough" end)
+  return model
+end
+
 local function subject(entry, tissue)
   if entry.owner == "tunica" then return nil end
   if entry.owner == "model" then return model_of(tissue) end
+  if entry.owner == "phyllotaxis" then return phyllotaxis() end
   if entry.owner == "tissue" then return tissue end
   return tissue:find(1, entry.owner)
 end
@@ -141,11 +150,11 @@ local function call_with(entry, values, what)
     local made = try(what, tissue, entry.call, unpack(given, 1, count))
     if is_model(made) then try(what .. ", then advanced", tissue, made.advance, made, { to = 0.3 }) end
   else
-    (entry.owner == "model" and try_model or try)(what, tissue, entry.call, subject(entry, tissue), unpack(given, 1, count))
+    ((entry.owner == "model" or entry.owner == "phyllotaxis") and try_model or try)(what, tissue, entry.call, subject(entry, tissue), unpack(given, 1, count))
   end
 end
 
-local owners = { tunica = true, tissue = true, cell = true, wall = true, side = true, junction = true, model = true }
+local owners = { tunica = true, tissue = true, cell = true, wall = true, side = true, junction = true, model = true, phyllotaxis = true }
 local foreign_names = { ["tunica.params"] = true } -- one per script
 local slow = { ["tissue:picture"] = true, ["tissue:show"] = true } -- each call draws
 local function ours(entry)
@@ -158,7 +167,7 @@ local function fuzz_entry(entry)
     -- in the place of the subject, without a subject, as only argument, as one argument too many
     local tissue = fresh()
     try(entry.name .. " of " .. one[1], tissue, entry.call, one[2](tissue))
-    ;(entry.owner == "model" and try_model or try)(entry.name .. " with " .. one[1], tissue, entry.call,
+    ;((entry.owner == "model" or entry.owner == "phyllotaxis") and try_model or try)(entry.name .. " with " .. one[1], tissue, entry.call,
       subject(entry, tissue) or 1, one[2](tissue))
     try(entry.name .. " with many", tissue, entry.call, subject(entry, tissue) or 1, 1, 1, 1, 1, 1, 1, one[2](tissue))
     for i, spec in ipairs(entry.args) do

@@ -1,0 +1,406 @@
+// SPDX-License-Identifier: MIT
+// Phyllotaxis by inhibition fields: what lua/tunica/phyllotaxis.lua runs. Angles are in radians here.
+#include <cmath>
+
+#include "field/inhibition.h"
+#include "lua/bind_model.h"
+#include "lua/guard.h"
+
+namespace tunica::lua {
+
+namespace {
+
+lua_State* at_work(lua_State* L) { return host(L).active ? host(L).active : L; }
+
+/// A Lua function of numbers that the engine calls while it works; it can change nothing meanwhile.
+class Callback {
+ public:
+  Callback(lua_State* L, int at) : L_(L) {
+    lua_pushvalue(L, at);
+    reference_ = std::shared_ptr<const int>(new int(luaL_ref(L, LUA_REGISTRYINDEX)), [L](const int* r) {
+      luaL_unref(L, LUA_REGISTRYINDEX, *r);
+      delete r;
+    });
+  }
+  /// Calls it and leaves `results` values on the stack of the thread at work.
+  lua_State* call_with(std::initializer_list<double> arguments, int results) const {
+    lua_State* now = at_work(L_);
+    if (!lua_checkstack(now, 16)) fail("too many calls inside each other");
+    lua_rawgeti(now, LUA_REGISTRYINDEX, *reference_);
+    for (const double x : arguments) lua_pushnumber(now, x);
+    const InRule in_rule(now);
+    call(now, static_cast<int>(arguments.size()), results);
+    return now;
+  }
+  double number(const char* what, std::initializer_list<double> arguments) const {
+    lua_State* now = call_with(arguments, 1);
+    if (lua_type(now, -1) != LUA_TNUMBER) fail("{} must be a number, came {}", what, describe(now, -1));
+    const double value = lua_tonumber(now, -1);
+    lua_pop(now, 1);
+    return value;
+  }
+  Vec2 point(const char* what, double argument) const {
+    lua_State* now = call_with({argument}, 2);
+    const Vec2 p(lua_tonumber(now, -2), lua_tonumber(now, -1));
+    if (lua_type(now, -2) != LUA_TNUMBER || lua_type(now, -1) != LUA_TNUMBER || std::isnan(p.x()) || std::isnan(p.y()))
+      fail("{} must be two numbers x, y, came {} and {} for {:.6g}", what, describe(now, -2), describe(now, -1),
+           argument);
+    lua_pop(now, 2);
+    return p;
+  }
+
+ private:
+  lua_State* L_;
+  std::shared_ptr<const int>
+      reference_;  // lives in the objects of this Lua state, which collects them before it closes
+};
+
+/// A field that could not be traced.
+class DirectField : public FieldRule {
+ public:
+  explicit DirectField(Callback f) : f_(std::move(f)) {}
+  void add(double age, double t, const double* d, int count, double* h) override {
+    for (int i = 0; i < count; ++i) h[i] += at(d[i], age, t);
+  }
+  double at(double d, double age, double t) override { return f_.number("a field", {d, age, t}); }
+
+ private:
+  Callback f_;
+};
+
+struct Phyllotaxis {
+  std::unique_ptr<Inhibition> engine;
+};
+
+}  // namespace
+
+template <>
+struct TypeName<Phyllotaxis> {
+  static constexpr const char* value = "tunica.inhibition";
+};
+
+namespace {
+
+Inhibition& engine_at(lua_State* L, int at) { return *object_at<Phyllotaxis>(L, at).engine; }
+
+double number_field(lua_State* L, const char* name) {
+  lua_getfield(L, 1, name);
+  const double value = check_number(L, -1, name);
+  lua_pop(L, 1);
+  return value;
+}
+
+std::optional<Callback> function_field(lua_State* L, const char* name) {
+  lua_getfield(L, 1, name);
+  std::optional<Callback> f;
+  if (lua_isfunction(L, -1)) f.emplace(L, lua_gettop(L));
+  lua_pop(L, 1);
+  return f;
+}
+
+/// inhibition { radius, height, track = function(age) -> x, y, displaced = function(along) -> x, y, samples, ... }
+int inhibition(lua_State* L) {
+  return guard(L, [&] {
+    check_table(L, 1, "the settings");
+    const Entering entering(L);
+    InhibitionSettings s;
+    s.ring = {number_field(L, "radius"), number_field(L, "height")};
+    const auto track = function_field(L, "track"), displaced = function_field(L, "displaced");
+    if (!track) fail("the path must be a function(age) that returns x, y");
+    s.track = [f = *track](double age) { return f.point("the path", age); };
+    if (displaced) s.displaced = [f = *displaced](double along) { return f.point("the place on the profile", along); };
+    s.samples = static_cast<int>(number_field(L, "samples"));
+    s.jugacy = static_cast<int>(number_field(L, "jugacy"));
+    s.tie = number_field(L, "tie");
+    s.tolerance = number_field(L, "tolerance");
+    s.longest_step = number_field(L, "dt");
+    lua_getfield(L, 1, "located");
+    s.located = lua_toboolean(L, -1);
+    lua_pop(L, 1);
+    s.drop = number_field(L, "drop");
+    s.most_active = static_cast<int>(number_field(L, "most"));
+    s.jitter_angle = number_field(L, "jitter_angle");
+    s.jitter_along = number_field(L, "jitter_along");
+    if (s.jitter_along > 0 && !displaced) fail("jitter along the profile needs the profile of an apex");
+    s.seed = host(L).seed;
+    s.cancel = &host(L).cancel;
+    auto object = std::make_unique<Phyllotaxis>();
+    object->engine = std::make_unique<Inhibition>(std::move(s));
+    push_object(L, std::move(object));
+    return 1;
+  });
+}
+
+/// A traced field; or nothing, and the reason is left on the stack.
+std::unique_ptr<FieldRule> traced(lua_State* L, int function, int parameters) {
+  const int top = lua_gettop(L);
+  auto equations = std::make_shared<Equations>();
+  Tracer tracer(equations, nullptr);
+  try {
+    lua_pushvalue(L, function);
+    const NodeId root = tracer.trace_field(L);
+    auto rule = std::make_unique<TracedField>(equations->graph, root);
+    rule->set_parameters(parameter_values(L, parameters, *equations));
+    return rule;
+  } catch (const ScriptError& error) {
+    lua_settop(L, top);
+    error.push(L);
+  } catch (const Error& error) {
+    lua_settop(L, top);
+    lua_pushstring(L, error.what());
+  }
+  return nullptr;
+}
+
+/// inhibition_field(engine, k, function, threshold, parameters, direct) -> true, or false and why the function cannot
+/// be traced. k: which, from 1; one more than there are adds one.
+int field(lua_State* L) {
+  return guard(L, [&] {
+    Inhibition& engine = engine_at(L, 1);
+    const Entering entering(L);
+    const auto k = static_cast<size_t>(check_integer(L, 2, "which", 1, static_cast<int64_t>(engine.fields()) + 1)) - 1;
+    check_function(L, 3, "a field");
+    check_table(L, 5, "the parameters");
+    InhibitionField made;
+    if (lua_toboolean(L, 6)) {
+      made.rule = std::make_unique<DirectField>(Callback(L, 3));
+    } else {
+      made.rule = traced(L, 3, 5);
+      if (!made.rule) {
+        lua_pushboolean(L, 0);
+        lua_insert(L, -2);
+        return 2;
+      }
+    }
+    if (lua_type(L, 4) == LUA_TNUMBER) {
+      made.threshold = [value = check_number(L, 4, "a threshold")](double) { return value; };
+    } else {
+      check_function(L, 4, "a threshold");
+      made.threshold = [f = Callback(L, 4)](double t) { return f.number("a threshold", {t}); };
+    }
+    if (k == engine.fields())
+      engine.add_field(std::move(made));
+    else
+      engine.field(k) = std::move(made), engine.changed();
+    lua_pushboolean(L, 1);
+    return 1;
+  });
+}
+
+int changed(lua_State* L) {
+  return guard(L, [&] {
+    engine_at(L, 1).changed();
+    return 0;
+  });
+}
+
+/// inhibition_share(engine, k, d, age, t) -> the field of one primordium, as it is computed
+int share(lua_State* L) {
+  return guard(L, [&] {
+    Inhibition& engine = engine_at(L, 1);
+    const Entering entering(L);
+    const auto k = static_cast<size_t>(check_integer(L, 2, "which", 1, static_cast<int64_t>(engine.fields()))) - 1;
+    lua_pushnumber(L, engine.field(k).rule->at(lua_tonumber(L, 3), lua_tonumber(L, 4), lua_tonumber(L, 5)));
+    return 1;
+  });
+}
+
+// === Start and course
+
+/// inhibition_primordium(engine, angle, age); inhibition_random(engine)
+int primordium(lua_State* L) {
+  return guard(L, [&] {
+    engine_at(L, 1).add_primordium(check_number(L, 2, "the angle"), check_number(L, 3, "the age"));
+    return 0;
+  });
+}
+
+int random_one(lua_State* L) {
+  return guard(L, [&] {
+    engine_at(L, 1).add_random();
+    return 0;
+  });
+}
+
+/// inhibition_lattice(engine, whorls, angle, jugacy, plastochron | nil) -> plastochron
+int lattice(lua_State* L) {
+  return guard(L, [&] {
+    Inhibition& engine = engine_at(L, 1);
+    const Entering entering(L);
+    std::optional<double> spacing;
+    if (!lua_isnoneornil(L, 5)) spacing = check_number(L, 5, "the spacing");
+    lua_pushnumber(L, engine.add_lattice(static_cast<int>(check_integer(L, 2, "count", 1, 100000)),
+                                         check_number(L, 3, "the angle"),
+                                         static_cast<int>(check_integer(L, 4, "jugacy", 1, 1000)), spacing));
+    return 1;
+  });
+}
+
+/// inhibition_advance(engine, to) -> "reached" | "inserted" | "clear" | "interrupted"
+int advance_to(lua_State* L) {
+  return guard(L, [&] {
+    Inhibition& engine = engine_at(L, 1);
+    const Entering entering(L);
+    static constexpr const char* names[] = {"reached", "inserted", "clear", "interrupted"};
+    lua_pushstring(L, names[static_cast<int>(engine.advance(check_number(L, 2, "a time")))]);
+    return 1;
+  });
+}
+
+/// inhibition_known(engine) -> until when nothing happens; nothing when interrupted
+int known(lua_State* L) {
+  return guard(L, [&] {
+    Inhibition& engine = engine_at(L, 1);
+    const Entering entering(L);
+    try {
+      lua_pushnumber(L, engine.known_until());
+    } catch (const Cancelled&) {
+      return 0;
+    }
+    return 1;
+  });
+}
+
+/// inhibition_show(engine, t): another time within the present search interval.
+int show(lua_State* L) {
+  return guard(L, [&] {
+    engine_at(L, 1).show(check_number(L, 2, "a time"));
+    return 0;
+  });
+}
+
+// === Looking at it
+
+/// inhibition_state(engine) -> table
+int state(lua_State* L) {
+  return guard(L, [&] {
+    const Inhibition& engine = engine_at(L, 1);
+    lua_createtable(L, 0, 10);
+    const auto number = [&](const char* key, double value) {
+      lua_pushnumber(L, value);
+      lua_setfield(L, -2, key);
+    };
+    number("time", engine.time());
+    number("count", static_cast<double>(engine.primordia().size()));
+    number("left_out", static_cast<double>(engine.first_active()));
+    number("steps", static_cast<double>(engine.steps()));
+    number("plastochron", engine.plastochron());
+    number("last_birth", engine.last_birth());
+    number("time_scale", engine.time_scale());
+    number("evaluations", static_cast<double>(engine.evaluations()));
+    number("pairs", static_cast<double>(engine.pairs()));
+    lua_pushboolean(L, engine.overflowed());
+    lua_setfield(L, -2, "overflowed");
+    return 1;
+  });
+}
+
+/// inhibition_primordia(engine, first) -> list of { angle, birth, initial, x, y } from the first-th on
+int primordia(lua_State* L) {
+  return guard(L, [&] {
+    const Inhibition& engine = engine_at(L, 1);
+    const Entering entering(L);
+    const auto first = static_cast<size_t>(check_integer(L, 2, "first", 1, int64_t{1} << 50));
+    lua_newtable(L);
+    int count = 0;
+    for (size_t i = first - 1; i < engine.primordia().size(); ++i) {
+      const Primordium& p = engine.primordia()[i];
+      const Vec2 at = engine.place(p);
+      lua_createtable(L, 0, 8);
+      for (const auto& [key, value] : {std::pair{"angle", p.angle}, {"birth", p.birth}, {"x", at.x()}, {"y", at.y()}}) {
+        lua_pushnumber(L, value);
+        lua_setfield(L, -2, key);
+      }
+      lua_pushboolean(L, p.initial);
+      lua_setfield(L, -2, "initial");
+      lua_rawseti(L, -2, ++count);
+    }
+    return 1;
+  });
+}
+
+/// inhibition_value(engine, k, angle, x, y) -> the field there, now
+int value(lua_State* L) {
+  return guard(L, [&] {
+    Inhibition& engine = engine_at(L, 1);
+    const Entering entering(L);
+    const auto k = static_cast<size_t>(check_integer(L, 2, "which", 1, static_cast<int64_t>(engine.fields()))) - 1;
+    lua_pushnumber(
+        L, engine.value(k, check_number(L, 3, "the angle"), {check_number(L, 4, "x"), check_number(L, 5, "y")}));
+    return 1;
+  });
+}
+
+/// inhibition_ring(engine, k) -> values of the field on the samples, and their angles
+int ring(lua_State* L) {
+  return guard(L, [&] {
+    Inhibition& engine = engine_at(L, 1);
+    const Entering entering(L);
+    const auto k = static_cast<size_t>(check_integer(L, 2, "which", 1, static_cast<int64_t>(engine.fields()))) - 1;
+    for (const std::vector<double>& list : {engine.ring_values(k), engine.angles()}) {
+      lua_createtable(L, static_cast<int>(list.size()), 0);
+      for (size_t i = 0; i < list.size(); ++i) {
+        lua_pushnumber(L, list[i]);
+        lua_rawseti(L, -2, static_cast<int>(i) + 1);
+      }
+    }
+    return 2;
+  });
+}
+
+/// inhibition_minimum(engine) -> angle, value, whether it is a candidate
+int minimum(lua_State* L) {
+  return guard(L, [&] {
+    Inhibition& engine = engine_at(L, 1);
+    const Entering entering(L);
+    const Inhibition::Minimum m = engine.minimum();
+    lua_pushnumber(L, m.angle);
+    lua_pushnumber(L, m.value);
+    lua_pushboolean(L, m.candidate);
+    return 3;
+  });
+}
+
+int save(lua_State* L) {
+  return guard(L, [&] {
+    ByteWriter out;
+    engine_at(L, 1).save(out);
+    lua_pushlstring(L, out.bytes().data(), out.bytes().size());
+    return 1;
+  });
+}
+
+int load(lua_State* L) {
+  return guard(L, [&] {
+    const std::string bytes = check_string(L, 2, "a saved state");
+    ByteReader in(bytes);
+    engine_at(L, 1).load(in);
+    return 0;
+  });
+}
+
+}  // namespace
+
+void register_phyllotaxis(lua_State* L) {
+  const luaL_Reg functions[] = {{"inhibition", inhibition},
+                                {"inhibition_field", field},
+                                {"inhibition_changed", changed},
+                                {"inhibition_share", share},
+                                {"inhibition_primordium", primordium},
+                                {"inhibition_random", random_one},
+                                {"inhibition_lattice", lattice},
+                                {"inhibition_advance", advance_to},
+                                {"inhibition_known", known},
+                                {"inhibition_show", show},
+                                {"inhibition_state", state},
+                                {"inhibition_primordia", primordia},
+                                {"inhibition_value", value},
+                                {"inhibition_ring", ring},
+                                {"inhibition_minimum", minimum},
+                                {"inhibition_save", save},
+                                {"inhibition_load", load},
+                                {nullptr, nullptr}};
+  add_functions(L, functions);
+}
+
+}  // namespace tunica::lua
