@@ -6,7 +6,9 @@ local registry = require "tunica.registry"
 local core = require "tunica.core"
 
 -- Each part declares its operations with the registry.
-for _, part in ipairs { "builders", "elements", "tissue", "model", "phyllotaxis", "view", "run" } do require("tunica." .. part) end
+for _, part in ipairs { "builders", "elements", "tissue", "model", "phyllotaxis", "view", "plot", "run" } do
+  require("tunica." .. part)
+end
 
 local names = {}
 for name in pairs(registry.module) do names[#names + 1] = name end

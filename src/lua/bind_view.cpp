@@ -17,28 +17,12 @@
 namespace tunica::lua {
 namespace {
 
-/// A list of { keyword, text }.
-PngTexts read_texts(lua_State* L, int at) {
-  PngTexts texts;
-  if (lua_isnoneornil(L, at)) return texts;
-  check_table(L, at, "the texts of a PNG");
-  for (int i = 1, size = static_cast<int>(lua_objlen(L, at)); i <= size; ++i) {
-    lua_rawgeti(L, at, i);
-    check_table(L, -1, "a text of a PNG");
-    lua_rawgeti(L, -1, 1);
-    lua_rawgeti(L, -2, 2);
-    texts.emplace_back(check_string(L, -2, "a keyword"), check_string(L, -1, "a text"));
-    lua_pop(L, 3);
-  }
-  return texts;
-}
-
 /// draw(tissue, settings [, texts]) -> bytes of a PNG, width, height
 int draw(lua_State* L) {
   return guard(L, [&] {
     Tissue& tissue = tissue_at(L, 1);
     lua_settop(L, 3);
-    const PngTexts texts = read_texts(L, 3);
+    const PngTexts texts = read_picture_texts(L, 3);
     const Picture picture = render(scene_of(tissue, read_view_settings(L, tissue, 2)));
     const std::string png = encode_png(picture, texts);
     lua_pushlstring(L, png.data(), png.size());

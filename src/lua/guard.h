@@ -106,6 +106,7 @@ int guard(lua_State* L, Body&& body) {
 void register_tissue(lua_State* L);
 void register_model(lua_State* L);
 void register_view(lua_State* L);
+void register_apex_view(lua_State* L);
 void register_run(lua_State* L);
 
 }  // namespace tunica::lua

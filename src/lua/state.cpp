@@ -86,6 +86,7 @@ void open_core(lua_State* L) {
   register_tissue(L);
   register_model(L);
   register_view(L);
+  register_apex_view(L);
   register_run(L);
   lua_setfield(L, -2, "tunica.core");
   lua_pop(L, 1);

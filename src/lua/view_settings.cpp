@@ -4,71 +4,10 @@
 #include <cmath>
 
 #include "lua/bind_tissue.h"
+#include "lua/table_reader.h"
 
 namespace tunica::lua {
 namespace {
-
-/// Fields of the table of settings at a stack index. The reader leaves the stack as it was.
-class Reader {
- public:
-  Reader(lua_State* L, int table) : L_(L), table_(table) {}
-
-  /// Pushes a field; false, and nothing pushed, if it is nil.
-  bool push(const char* key) const {
-    if (!lua_checkstack(L_, 8)) fail("too many nested calls");
-    lua_getfield(L_, table_, key);
-    if (!lua_isnil(L_, -1)) return true;
-    lua_pop(L_, 1);
-    return false;
-  }
-  std::optional<double> number(const char* key) const {
-    if (!push(key)) return std::nullopt;
-    const double value = check_number(L_, -1, key);
-    lua_pop(L_, 1);
-    return value;
-  }
-  double number(const char* key, double low, double high, double otherwise) const {
-    const double value = number(key).value_or(otherwise);
-    if (!(value >= low && value <= high)) fail("'{}' must be from {} to {}, came {}", key, low, high, value);
-    return value;
-  }
-  std::optional<std::string> text(const char* key) const {
-    if (!push(key)) return std::nullopt;
-    std::string value = check_string(L_, -1, key);
-    lua_pop(L_, 1);
-    return value;
-  }
-  std::optional<bool> boolean(const char* key) const {
-    if (!push(key)) return std::nullopt;
-    if (!lua_isboolean(L_, -1)) fail("'{}' must be true or false, came {}", key, describe(L_, -1));
-    const bool value = lua_toboolean(L_, -1);
-    lua_pop(L_, 1);
-    return value;
-  }
-  std::optional<Vec3> vector(const char* key) const {
-    if (!push(key)) return std::nullopt;
-    const Vec3 value = vector_at(lua_gettop(L_), key);
-    lua_pop(L_, 1);
-    return value;
-  }
-  Vec3 vector_at(int at, const char* what) const {
-    check_table(L_, at, what);
-    const auto size = static_cast<int>(lua_objlen(L_, at));
-    if (size != 2 && size != 3) fail("'{}' must be {{ x, y }} or {{ x, y, z }}, came {} numbers", what, size);
-    Vec3 value = Vec3::Zero();
-    for (int axis = 0; axis < size; ++axis) {
-      lua_rawgeti(L_, at, axis + 1);
-      value[axis] = check_number(L_, -1, what);
-      lua_pop(L_, 1);
-    }
-    return value;
-  }
-  lua_State* state() const { return L_; }
-
- private:
-  lua_State* L_;
-  int table_;
-};
 
 /// Calls the function at the top of the stack for every element; `take(index)` reads the `results` it returned from the
 /// top. Pops the function.
@@ -88,7 +27,7 @@ void for_each_element(lua_State* L, Tissue& tissue, Kind kind, int results, Take
 }
 
 /// A column's name, or a function of the elements (nil: no value).
-Field read_field(const Reader& reader, Tissue& tissue, Kind kind, const char* key, const char* title) {
+Field read_field(const TableReader& reader, Tissue& tissue, Kind kind, const char* key, const char* title) {
   Field field;
   field.title = reader.text(title).value_or("");
   if (!reader.push(key)) return field;
@@ -108,26 +47,8 @@ Field read_field(const Reader& reader, Tissue& tissue, Kind kind, const char* ke
   return field;
 }
 
-Palette read_palette(const Reader& reader) {
-  if (!reader.push("palette")) return palette("viridis");
-  lua_State* L = reader.state();
-  if (!lua_istable(L, -1)) {
-    const std::string name = check_string(L, -1, "'palette'");
-    lua_pop(L, 1);
-    return palette(name);
-  }
-  std::vector<Colour> colours;
-  for (int i = 1; i <= static_cast<int>(std::min<size_t>(lua_objlen(L, -1), 1000)); ++i) {
-    lua_rawgeti(L, -1, i);
-    colours.push_back(parse_colour(check_string(L, -1, "a colour of 'palette'")));
-    lua_pop(L, 1);
-  }
-  lua_pop(L, 1);
-  return palette_through(colours);
-}
-
 /// `marked`: a function of the cells, or a list of cells.
-void read_marked(const Reader& reader, Tissue& tissue, ViewSettings& s) {
+void read_marked(const TableReader& reader, Tissue& tissue, ViewSettings& s) {
   if (!reader.push("marked")) return;
   lua_State* L = reader.state();
   s.marked.assign(static_cast<size_t>(tissue.cells()), 0);
@@ -145,7 +66,7 @@ void read_marked(const Reader& reader, Tissue& tissue, ViewSettings& s) {
   lua_pop(L, 1);
 }
 
-Marker::Shape read_shape(const Reader& reader) {
+Marker::Shape read_shape(const TableReader& reader) {
   const std::vector<std::string> names = {"disc", "ring", "square", "triangle", "cross", "plus"};
   const std::string name = reader.text("marker_shape").value_or("ring");
   for (size_t i = 0; i < names.size(); ++i)
@@ -154,7 +75,7 @@ Marker::Shape read_shape(const Reader& reader) {
 }
 
 /// `labels`: "id", the name of a column, or a function of the cells that returns text, a number or nil.
-void read_labels(const Reader& reader, Tissue& tissue, ViewSettings& s) {
+void read_labels(const TableReader& reader, Tissue& tissue, ViewSettings& s) {
   if (!reader.push("labels")) return;
   lua_State* L = reader.state();
   if (lua_isfunction(L, -1)) {
@@ -176,7 +97,7 @@ void read_labels(const Reader& reader, Tissue& tissue, ViewSettings& s) {
                               : std::to_string(tissue.id(Kind::cell, c)));
 }
 
-void read_places(const Reader& reader, Tissue& tissue, ViewSettings& s) {
+void read_places(const TableReader& reader, Tissue& tissue, ViewSettings& s) {
   if (!reader.push("place")) return;
   lua_State* L = reader.state();
   check_function(L, -1, "'place'");
@@ -188,12 +109,12 @@ void read_places(const Reader& reader, Tissue& tissue, ViewSettings& s) {
   });
 }
 
-void read_camera(const Reader& settings, ViewSettings& s) {
+void read_camera(const TableReader& settings, ViewSettings& s) {
   if (!settings.push("camera")) return;
   lua_State* L = settings.state();
   check_table(L, -1, "'camera'");
   {
-    const Reader reader(L, lua_gettop(L));
+    const TableReader reader(L, lua_gettop(L));
     Camera camera;
     camera.direction = reader.vector("direction").value_or(camera.direction);
     camera.up = reader.vector("up").value_or(camera.up);
@@ -206,7 +127,7 @@ void read_camera(const Reader& settings, ViewSettings& s) {
   lua_pop(L, 1);
 }
 
-void read_sides(const Reader& reader, Tissue& tissue, ViewSettings& s) {
+void read_sides(const TableReader& reader, Tissue& tissue, ViewSettings& s) {
   s.sides = read_field(reader, tissue, Kind::side, "sides", "sides_title");
   s.sides_max = reader.number("sides_max");
   if (s.sides_max && !(*s.sides_max > 0)) fail("the value of the widest band must be positive, came {}", *s.sides_max);
@@ -221,9 +142,42 @@ void read_sides(const Reader& reader, Tissue& tissue, ViewSettings& s) {
 
 }  // namespace
 
+std::optional<Palette> read_palette(const TableReader& reader) {
+  if (!reader.push("palette")) return std::nullopt;
+  lua_State* L = reader.state();
+  if (!lua_istable(L, -1)) {
+    const std::string name = check_string(L, -1, "'palette'");
+    lua_pop(L, 1);
+    return palette(name);
+  }
+  std::vector<Colour> colours;
+  for (int i = 1; i <= static_cast<int>(std::min<size_t>(lua_objlen(L, -1), 1000)); ++i) {
+    lua_rawgeti(L, -1, i);
+    colours.push_back(parse_colour(check_string(L, -1, "a colour of 'palette'")));
+    lua_pop(L, 1);
+  }
+  lua_pop(L, 1);
+  return palette_through(colours);
+}
+
+PngTexts read_picture_texts(lua_State* L, int at) {
+  PngTexts texts;
+  if (lua_isnoneornil(L, at)) return texts;
+  check_table(L, at, "the texts of a PNG");
+  for (int i = 1, size = static_cast<int>(lua_objlen(L, at)); i <= size; ++i) {
+    lua_rawgeti(L, at, i);
+    check_table(L, -1, "a text of a PNG");
+    lua_rawgeti(L, -1, 1);
+    lua_rawgeti(L, -2, 2);
+    texts.emplace_back(check_string(L, -2, "a keyword"), check_string(L, -1, "a text"));
+    lua_pop(L, 3);
+  }
+  return texts;
+}
+
 ViewSettings read_view_settings(lua_State* L, Tissue& tissue, int table) {
   check_table(L, table, "the settings of a view");
-  const Reader reader(L, table);
+  const TableReader reader(L, table);
   ViewSettings s;
   s.width = static_cast<int>(reader.number("width", 0, max_picture_side, 0));
   s.height = static_cast<int>(reader.number("height", 0, max_picture_side, 0));
@@ -233,7 +187,7 @@ ViewSettings read_view_settings(lua_State* L, Tissue& tissue, int table) {
   s.colour = read_field(reader, tissue, Kind::cell, "colour", "colour_title");
   s.min = reader.number("min");
   s.max = reader.number("max");
-  s.palette = read_palette(reader);
+  s.palette = read_palette(reader).value_or(palette("viridis"));
   if (const auto colour = reader.text("plain")) s.plain = parse_colour(*colour);
   read_sides(reader, tissue, s);
   if (const auto colour = reader.text("outline")) s.outline = parse_colour(*colour);

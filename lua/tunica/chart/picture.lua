@@ -42,9 +42,11 @@ local function block(name, list, line)
   return table.concat(lines, "\n") .. "\n"
 end
 
-local function terminals(folder, name, width, height, commands)
+local both = { "png", "svg" }
+
+local function terminals(folder, name, width, height, commands, kinds)
   local script = {}
-  for _, kind in ipairs { "png", "svg" } do
+  for _, kind in ipairs(kinds) do
     local terminal = kind == "png" and string.format("pngcairo size %d,%d font 'DejaVu Sans,13' linewidth 1.3", width, height)
       or string.format("svg size %d,%d font 'DejaVu Sans,13' linewidth 1.3 background 'white'", width, height)
     script[#script + 1] = string.format("reset\nset encoding utf8\nset terminal %s noenhanced\nset output %s\n%s\nunset output\n", terminal,
@@ -53,10 +55,11 @@ local function terminals(folder, name, width, height, commands)
   return table.concat(script)
 end
 
---- Draws and puts both files in place. Returns true, or nil and why not.
-local function draw(folder, name, width, height, data, commands)
-  local ok, why = pcall(core.gnuplot, data .. terminals(folder, name, width, height, commands))
-  for _, kind in ipairs { "png", "svg" } do
+--- Draws and puts the files in place, of the kinds given or both. Returns true, or nil and why not.
+local function draw(folder, name, width, height, data, commands, kinds)
+  kinds = kinds or both
+  local ok, why = pcall(core.gnuplot, data .. terminals(folder, name, width, height, commands, kinds))
+  for _, kind in ipairs(kinds) do
     local part = folder .. "/" .. name .. ".part." .. kind
     if ok then core.rename(part, folder .. "/" .. name .. "." .. kind) else core.remove_all(part) end
   end
