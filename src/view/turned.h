@@ -4,11 +4,10 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "tissue/polygon.h"
 #include "view/scene.h"
 
 namespace tunica {
-
-using Vec2 = Eigen::Vector2d;
 
 /// A surface of revolution about the y axis, from samples of its profile: the point (theta, a) is
 /// (x(a) cos theta, y(a), x(a) sin theta), a being the length along the profile from its start (thesis 3.1).
