@@ -53,10 +53,15 @@ inline std::string content_of(const std::filesystem::path& path) {
 
 inline std::filesystem::path repository() { return std::filesystem::path(__FILE__).parent_path() / ".." / ".."; }
 
-/// A file of the data set that is not part of the repository (TUNICA_DATA, or ../shared/data beside it), or "".
-inline std::string outside_data(const std::string& name) {
+/// The data set that is not part of the repository (TUNICA_DATA, or ../shared/data beside it); it may be absent.
+inline std::filesystem::path outside_folder() {
   const char* given = std::getenv("TUNICA_DATA");
-  const std::filesystem::path folder = given ? std::filesystem::path(given) : repository() / ".." / "shared" / "data";
+  return given ? std::filesystem::path(given) : repository() / ".." / "shared" / "data";
+}
+
+/// A file of it, or "".
+inline std::string outside_data(const std::string& name) {
+  const std::filesystem::path folder = outside_folder();
   return std::filesystem::exists(folder / name) ? content_of(folder / name) : "";
 }
 
