@@ -6,7 +6,7 @@ local registry = require "tunica.registry"
 local core = require "tunica.core"
 
 -- Each part declares its operations with the registry.
-for _, part in ipairs { "builders", "elements", "tissue", "model", "phyllotaxis", "view", "plot", "run" } do
+for _, part in ipairs { "builders", "elements", "tissue", "shapes", "model", "phyllotaxis", "view", "plot", "run" } do
   require("tunica." .. part)
 end
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
+#include "lua/bind_shape.h"
 #include "lua/handle.h"
 #include "lua/symbol.h"
 
@@ -29,6 +30,7 @@ std::string describe(lua_State* L, int at) {
       if (is_tissue(L, at)) return "a tissue";
       if (peek_handle(L, at, kind, id, tissue)) return fmt::format("{} {}", name_of(kind), id);
       if (is_symbol(L, at)) return "a symbol of a rule";
+      if (const char* shape = shape_kind(L, at)) return fmt::format("{} {}", *shape == 'a' ? "an" : "a", shape);
       return "a value of another library";
     default:
       return std::string("a ") + lua_typename(L, lua_type(L, at));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "lua/bind_shape.h"
 #include "lua/guard.h"
 
 namespace tunica::lua {
@@ -88,6 +89,7 @@ void open_core(lua_State* L) {
   register_view(L);
   register_apex_view(L);
   register_run(L);
+  register_shapes(L);
   lua_setfield(L, -2, "tunica.core");
   lua_pop(L, 1);
 }
@@ -99,6 +101,7 @@ int open_all(lua_State* L) {
   open_reproducible(L);
   open_loaders(L, library);
   host(L);
+  set_curves_folder(L, library);
   open_core(L);
   return 0;
 }

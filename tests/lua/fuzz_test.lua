@@ -29,6 +29,8 @@ local gone = fresh()
 local stale = gone:find(5)
 stale:divide()
 
+local shapes = { contour = tunica.contour "dome", curve = tunica.curve "raised", apex = tunica.apex { growth = "raised" } }
+
 local kept -- by a rule, from the call before
 
 --- Name and maker of each awkward value; what belongs to the tissue at hand is made from it.
@@ -50,6 +52,9 @@ local awkward = {
   { "cell", function(t) return t:find(1) end },
   { "wall", function(t) return t:find(2, "wall") end },
   { "tissue", function(t) return t end },
+  { "contour", function() return shapes.contour end },
+  { "curve", function() return shapes.curve end },
+  { "apex", function() return shapes.apex end },
   { "failing function", function() return function() error("as it must") end end },
   { "changing function", function(t) return function() t:find(1):remove() return 1, 1, 1, 1 end end },
   { "silent function", function() return function() end end },
@@ -126,6 +131,7 @@ end
 
 local function subject(entry, tissue)
   if entry.owner == "tunica" then return nil end
+  if shapes[entry.owner] then return shapes[entry.owner] end
   if entry.owner == "model" then return model_of(tissue) end
   if entry.owner == "phyllotaxis" then return phyllotaxis() end
   if entry.owner == "tissue" then return tissue end
@@ -155,7 +161,9 @@ local function call_with(entry, values, what)
 end
 
 local owners = { tunica = true, tissue = true, cell = true, wall = true, side = true, junction = true, model = true, phyllotaxis = true }
-local foreign_names = { ["tunica.params"] = true } -- one per script
+for owner in pairs(shapes) do owners[owner] = true end
+local foreign_names = { ["tunica.params"] = true, -- one per script
+  ["contour:save"] = true, ["curve:save"] = true } -- would write files
 local slow = { ["tissue:picture"] = true, ["tissue:show"] = true } -- each call draws
 local function ours(entry)
   return owners[entry.owner] and not foreign_names[entry.name] and entry.kind ~= "property" and
