@@ -6,7 +6,8 @@ local registry = require "tunica.registry"
 local core = require "tunica.core"
 
 -- Each part declares its operations with the registry.
-for _, part in ipairs { "builders", "elements", "tissue", "shapes", "model", "phyllotaxis", "view", "plot", "run" } do
+local parts = { "builders", "elements", "tissue", "shapes", "model", "phyllotaxis", "view", "plot", "phyllotaxis_view", "run" }
+for _, part in ipairs(parts) do
   require("tunica." .. part)
 end
 

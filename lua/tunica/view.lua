@@ -7,6 +7,16 @@ local op, fail = registry.op, registry.fail
 
 local view = {}
 
+--- Models without a tissue, which have pictures of their own: { is = function(model), check = function(model, given),
+-- draw = function(model, given, title, texts) that returns bytes of a PNG, width, height }.
+view.others = {}
+
+local function other(model)
+  for _, kind in ipairs(view.others) do
+    if kind.is(model) then return kind end
+  end
+end
+
 -- Options ------------------------------------------------------------------------------------------------------------
 
 local shown = "the name of a column, or a function that returns a number (nil: no value)"
@@ -208,6 +218,8 @@ end
 
 --- The picture of a model by one of its views: bytes of a PNG, width, height.
 function view.draw(model, given)
+  local kind = other(model)
+  if kind then return kind.draw(model, given, title_of(model, given), texts_of(model)) end
   local settings = settings_of(given)
   settings.title = title_of(model, given)
   check_columns(model.tissue, settings)
@@ -221,6 +233,9 @@ end
 
 --- Raises an error if a view names a column that the model's tissue does not have. To be called when the rules are bound.
 function view.check(model)
+  local kind = other(model)
+  for _, given in ipairs(kind and model.views or {}) do kind.check(model, given) end
+  if kind then return end
   for _, given in ipairs(model.views) do check_columns(model.tissue, settings_of(given)) end
 end
 

@@ -152,7 +152,7 @@ void add_labels(const DrawnApex& apex, Scene& scene) {
 }  // namespace
 
 DrawnApex::DrawnApex(const ApexPicture& apex, const ApexView& v)
-    : given(apex), view(v), surface(apex.profile), reach(0), primordia(apex.primordia) {
+    : given(apex), view(v), surface(apex.profile), primordia(apex.primordia) {
   check_primordia(apex.primordia);
   check_field(apex.field);
   if (apex.ring) check_ring(*apex.ring);
@@ -172,21 +172,29 @@ void DrawnApex::fill_in() {
     Bump& p = primordia[i];
     if (!p.number) p.number = static_cast<int>(i + 1);
     if (!p.radius) {
-      double nearest = 0.7 * std::max(surface.at(p.arc).x(), 1e-3 * surface.length());
-      for (size_t k = 0; k < places.size(); ++k)
-        if (k != i && (places[k] - places[i]).norm() > 0) nearest = std::min(nearest, (places[k] - places[i]).norm());
-      p.radius = 0.48 * nearest;
+      // The way to each neighbour is shared by their distances from the axis, since an apex grows in proportion to it:
+      // so the youngest, with neighbours on one side only, are not larger than they will be.
+      const double scale = 1e-3 * surface.length(), own = std::max(surface.at(p.arc).x(), scale);
+      double room = 0.35 * own;
+      for (size_t k = 0; k < places.size(); ++k) {
+        const double distance = (places[k] - places[i]).norm();
+        const double other = std::max(std::hypot(places[k].x(), places[k].z()), scale);
+        if (k != i && distance > 0) room = std::min(room, distance * own / (own + other));
+      }
+      p.radius = 0.96 * room;
     }
     if (!p.height) p.height = 0.5 * *p.radius;
   }
-  for (const Bump& p : primordia) reach = std::max(reach, p.arc + 1.25 * *p.radius);
-  if (given.ring) {
-    // Growth may have carried the oldest so far out that the apex itself would be a speck.
-    reach = std::min(reach, given.ring->arc + 7 * surface.at(given.ring->arc).x());
-    reach = std::max(reach, 1.4 * given.ring->arc);
+  if (view.reach) {
+    limit = reach = *view.reach;
+    return;
   }
-  if (primordia.empty()) reach = surface.length();
-  reach = view.reach.value_or(reach);
+  // Growth may have carried the oldest so far out that the apex itself would be a speck.
+  if (given.ring) limit = given.ring->arc + 7 * surface.at(given.ring->arc).x();
+  for (const Bump& p : primordia)
+    if (p.arc <= limit) reach = std::max(reach, p.arc + 1.25 * *p.radius);
+  if (given.ring) reach = std::max(reach, 1.4 * given.ring->arc);
+  if (reach == 0) reach = surface.length();
 }
 
 void DrawnApex::choose_colours() {

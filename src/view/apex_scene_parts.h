@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -15,13 +16,14 @@ struct DrawnApex {
   const ApexPicture& given;
   const ApexView& view;
   Turned surface;
-  double reach;                 ///< arc to which the surface is shown
-  std::vector<Bump> primordia;  ///< radius, height and number set; also those beyond reach, so that indices stay
+  double reach = 0;             ///< arc to which the surface is shown
+  double limit = INFINITY;      ///< arc to which primordia are shown
+  std::vector<Bump> primordia;  ///< radius, height and number set; also those not shown, so that indices stay
   std::vector<double> values;   ///< per primordium, what colours it; empty: plain
   double min = 0, max = 1;      ///< ends of the colour scale
   Palette palette;
 
-  bool shown(size_t i) const { return primordia[i].arc <= reach; }
+  bool shown(size_t i) const { return primordia[i].arc <= limit; }
   bool by_field() const { return view.by == ApexView::By::field; }
   Colour colour(size_t i) const { return values.empty() ? view.plain : scaled(values[i]); }
   Colour scaled(double value) const { return palette.at((value - min) / (max - min)); }

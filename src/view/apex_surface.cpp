@@ -183,7 +183,7 @@ void add_ring(const DrawnApex& apex, Scene& scene) {
     const Colour colour = coloured ? apex.scaled(ring_at(ring, theta - apex.view.turn)) : Colour{.35f, .4f, .35f, 1};
     for (const double side : {-1.0, 1.0}) {
       const double arc = std::max(0.0, ring.arc + side * (coloured ? half : 0.2 * half));
-      add_point(apex.surface.place(theta, arc) + 0.006 * size * apex.surface.normal(theta, arc), colour, scene);
+      add_point(apex.surface.place(theta, arc) + 0.004 * size * apex.surface.normal(theta, arc), colour, scene);
     }
   }
   const float edge = std::clamp(0.0016f * static_cast<float>(std::min(scene.width, scene.height)), 0.7f, 4.f);
@@ -211,7 +211,7 @@ void add_arrows(const DrawnApex& apex, Scene& scene) {
     const Vec3 side(-std::sin(theta), 0, std::cos(theta));
     const auto at = [&](double back, double across) {
       const double arc = tip - back;
-      return Vec3(apex.surface.place(theta, arc) + 0.012 * size * apex.surface.normal(theta, arc) + across * side);
+      return Vec3(apex.surface.place(theta, arc) + 0.006 * size * apex.surface.normal(theta, arc) + across * side);
     };
     const auto quad = [&](double from, double to, double wide_from, double wide_to) {
       const uint32_t a = add_point(at(from, -wide_from), colour, scene),

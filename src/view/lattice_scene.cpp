@@ -14,6 +14,7 @@ namespace tunica {
 namespace {
 
 constexpr double turn = 2 * M_PI, beside = 0.35;  ///< what is repeated on either side, in radians
+constexpr double marker_radius = 0.11;            ///< of discs where the map does not keep angles
 
 /// The world of the picture: x is the angle from 0 to 2 pi, y falls from the tip outwards.
 class Unrolled {
@@ -24,6 +25,7 @@ class Unrolled {
       const Bump& p = apex.primordia[i];
       const double size = radius_at(p), here = raw(p.arc);
       low_ = std::min(low_, here - size), high_ = std::max(high_, here + size);
+      widest_ = std::max(widest_, size);
     }
     if (low_ > high_) low_ = raw(0.2 * apex.reach), high_ = raw(apex.reach);
     const double span = std::max(high_ - low_, 1e-9);
@@ -51,12 +53,13 @@ class Unrolled {
   Vec3 operator()(double theta, double raw_height) const { return {theta, (low_ - raw_height) * factor_, 0}; }
   double low() const { return low_; }
   double high() const { return high_; }
+  double left() const { return -beside - (kept() ? widest_ : marker_radius); }  ///< of all that is repeated
   double bottom() const { return (low_ - high_) * factor_; }
   double factor() const { return factor_; }
 
  private:
   const DrawnApex& apex_;
-  double low_ = INFINITY, high_ = -INFINITY, factor_ = 1;
+  double low_ = INFINITY, high_ = -INFINITY, factor_ = 1, widest_ = 0;
 };
 
 /// A line from (x, y) to (x, y), with all its repeats, as far as they lie within the strip.
@@ -90,7 +93,7 @@ void add_primordia(const DrawnApex& apex, const Unrolled& map, Scene& scene) {
   for (size_t i = 0; i < apex.primordia.size(); ++i) {
     if (!apex.shown(i)) continue;
     const Bump& p = apex.primordia[i];
-    const double radius = map.kept() ? map.radius_at(p) : 0.11;
+    const double radius = map.kept() ? map.radius_at(p) : marker_radius;
     const double theta = wrapped(p.theta + apex.view.turn);
     for (const double shift : {0.0, -turn, turn}) {
       const double x = theta + shift;
@@ -151,7 +154,7 @@ void add_axes(const DrawnApex& apex, const Unrolled& map, Scene& scene) {
   }
   scene.pad_bottom = 1.6f * em;
   double widest = 0;
-  const double left = -beside;
+  const double left = map.left();
   scene.lines.push_back({{left, 0, 0}, {left, bottom, 0}, ink, 1.2f});
   // Where angles are kept only differences mean something: they count from the youngest.
   const double zero = apex.view.map == ApexView::Map::angles_kept ? map.low() : 0;

@@ -113,6 +113,42 @@ if drawable then
   plot(apex_view.divergence_plot(data, { lines = { { y = 137.5, text = "limit" } } }))
   plot(apex_view.ring_plot(data))
 end
+
+-- Models of phyllotaxis show themselves.
+local view = require "tunica.view"
+local function model_on(path)
+  local model = tunica.phyllotaxis { path = path, samples = 90 }
+  model:inhibition { field = function(d, age) return math.exp(-age) / d end, below = 3 }
+  return model
+end
+local flat, round = model_on(function(age) return math.exp(age), 0 end), model_on(function(age) return 1, -age end)
+for _, model in ipairs { flat, round } do
+  check.equal(model:picture { name .. ".png", size = 80 }, name .. ".png")  -- before anything has happened
+  model:advance(2)
+  for _, options in ipairs { {}, { from = "side", labels = true }, { colour = "field", arrows = true, reach = 2 }, { lattice = true },
+    { parastichies = { 1, 2 }, turn = 90 } } do
+    options[1], options.size = name .. ".png", 80
+    model:picture(options)
+    assert(core.read_file(name .. ".png"):sub(1, 4) == "\137PNG")
+  end
+end
+local before = flat:hash()
+flat:picture { name .. ".png", size = 60, colour = "field" }
+check.equal(flat:hash(), before, "a picture changes nothing")
+flat:view { colour = "age", every = 1, size = 60 }
+flat:view { lattice = "log", name = "lattice", size = 60, title = function(t) return "at " .. t end }
+view.check(flat)
+assert(view.draw(flat, flat.views[1]):find("tunica:time", 1, true))
+view.draw(flat, flat.views[2])
+check.fails(function() flat:view { color = "age" } end, "did you mean 'colour'")
+check.fails(function() flat:view { name = "../up" } end, "name of a view")
+check.fails(function() flat:picture { "a.jpg" } end, "must end in .png")
+check.fails(function() model_on(function(age) return 1, -age end):plot { name .. ".png" } end, "no divergence angle")
+if drawable then
+  flat:plot { name .. ".png", lines = { 137.5 } }
+  round:plot { name .. ".png", show = "field", title = "field" }
+end
+
 for _, wrong in ipairs {
   { "give 'y'", {} }, { "'x' needs 'y'", { x = { 1 } } }, { "2 x and 1 y", { x = { 1, 2 }, y = { 1 } } },
   { "did you mean 'title'", { series = { { y = { 1 }, titl = "a" } } } }, { "has no 'y'", { series = { {} } } },

@@ -164,7 +164,8 @@ local owners = { tunica = true, tissue = true, cell = true, wall = true, side = 
 for owner in pairs(shapes) do owners[owner] = true end
 local foreign_names = { ["tunica.params"] = true, -- one per script
   ["contour:save"] = true, ["curve:save"] = true } -- would write files
-local slow = { ["tissue:picture"] = true, ["tissue:show"] = true } -- each call draws
+local slow = { ["tissue:picture"] = true, ["tissue:show"] = true, ["phyllotaxis:picture"] = true,
+  ["phyllotaxis:plot"] = true } -- each call draws
 local function ours(entry)
   return owners[entry.owner] and not foreign_names[entry.name] and entry.kind ~= "property" and
     not (slow[entry.name] and share < 1)
