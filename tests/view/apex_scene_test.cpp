@@ -293,7 +293,7 @@ TEST(LatticeScene, DiscsLieAtTheirAngleAndLinesWrapAround) {
   }
   EXPECT_LT(left, 0);
   EXPECT_GT(right, 2 * M_PI);
-  EXPECT_GT(left, -0.6);
+  EXPECT_GT(left, -0.9);
   EXPECT_LT(right, 2 * M_PI + 0.6);
   EXPECT_NO_THROW(render(scene));
   view.map = ApexView::Map::arc;
