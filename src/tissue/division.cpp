@@ -118,14 +118,23 @@ std::vector<Vec3> changed(const Tissue& tissue, Index cell, const Mother& mother
   return points;
 }
 
-bool is_possible(const Mother& mother, const Plan& plan) {
+/// Whether a polygon is a possible cell that faces outward: where the surface does, or else where a cell faced before.
+bool is_possible(const std::vector<Vec3>& polygon, const Vec3& facing, const Surface* surface) {
+  if (!is_possible_cell(polygon)) return false;
+  const Vec3 outward = surface && surface->has_outside() ? surface->normal(measure(polygon).centroid) : facing;
+  return Frame(polygon).normal.dot(outward) > 0;
+}
+
+bool is_possible(const Mother& mother, const Plan& plan, const Surface* surface) {
   if (plan.a.side == plan.b.side) return false;
-  const Vec3 outward = Frame(mother.corners).normal;
+  const Vec3 facing = Frame(mother.corners).normal;
   for (const auto* daughter : {&plan.piece_a, &plan.piece_b})
-    if (!is_possible_cell(*daughter) || !(Frame(*daughter).normal.dot(outward) > 0)) return false;
+    if (!is_possible(*daughter, facing, surface)) return false;
   for (const End& end : {plan.a, plan.b}) {
     const Index neighbour = mother.tissue.neighbour(mother.sides[end.side]);
-    if (neighbour != none && !is_possible_cell(changed(mother.tissue, neighbour, mother, plan))) return false;
+    if (neighbour == none) continue;
+    const Vec3 across = mother.tissue.normal(neighbour);
+    if (!is_possible(changed(mother.tissue, neighbour, mother, plan), across, surface)) return false;
   }
   return true;
 }
@@ -144,7 +153,7 @@ Plan find_plan(const Mother& mother, const Cut& cut, const DivisionSettings& set
   const std::pair<double, double> tries[] = {{gap, settings.pinch}, {gap, 0}, {gap / 4, 0}, {0, 0}};
   for (const auto& [try_gap, try_pinch] : tries) {
     Plan plan = make_plan(mother, a, b, try_gap, try_pinch, surface);
-    if (is_possible(mother, plan)) return plan;
+    if (is_possible(mother, plan, surface)) return plan;
   }
   fail("cell {} cannot be divided there: a daughter or a neighbour would have no area or cross itself",
        mother.tissue.id(Kind::cell, mother.cell));

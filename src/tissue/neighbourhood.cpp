@@ -80,6 +80,17 @@ Index previous_to(const Tissue& tissue, Index cell, Index n) { return step_in_cy
 
 void remove_cell(Tissue& tissue, Index cell) { TissueEditor(tissue).remove_cell(cell); }
 
+void remove_cells(Tissue& tissue, std::vector<Id> cells) {
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  for (const Id id : cells)
+    if (tissue.find(Kind::cell, id) == none) fail("cell {} {}", id, tissue.fate(Kind::cell, id));
+  if (cells.empty()) return;
+  if (cells.size() == static_cast<size_t>(tissue.cells())) fail("the last cell of a tissue cannot be removed");
+  TissueEditor editor(tissue);
+  for (const Id id : cells) editor.remove_cell(tissue.find(Kind::cell, id));
+}
+
 Index add_cell(Tissue& graph) {
   require_graph(graph, "add a cell");
   return TissueEditor(graph).add_cell();

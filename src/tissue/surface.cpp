@@ -28,6 +28,23 @@ void set_all(Tissue& tissue, const std::vector<Vec3>& positions) {
   tissue.refresh_geometry();
 }
 
+/// What is wrong with the first impossible cell of a tissue that has been moved; empty: nothing.
+/// @param facing  where each cell faced before; unused if there is a surface
+std::string problem_of(Tissue& tissue, const Surface* surface, const std::vector<Vec3>& facing) {
+  const LockWhile surface_may_be_a_script(tissue);
+  for (Index c = 0; c < tissue.cells(); ++c) {
+    const Vec3 place = tissue.centroid(c);
+    // A surface cannot be asked about a place that is none.
+    const Vec3 outward = !surface            ? facing[static_cast<size_t>(c)]
+                         : place.allFinite() ? surface->normal(place)
+                                             : Vec3(Vec3::Zero());
+    if (const char* problem = problem_of(tissue, c, tissue.polygon(c), outward))
+      return fmt::format("cell {} {} (near {:.4g}, {:.4g}, {:.4g})", tissue.id(Kind::cell, c), problem, place.x(),
+                         place.y(), place.z());
+  }
+  return "";
+}
+
 }  // namespace
 
 void move_junctions(Tissue& tissue, const std::vector<Vec3>& positions, const Surface* surface) {
@@ -35,33 +52,37 @@ void move_junctions(Tissue& tissue, const std::vector<Vec3>& positions, const Su
   if (!tissue.has_geometry()) fail("a tissue without geometry (line, ring, grid, cylinder) cannot be moved");
   if (positions.size() != static_cast<size_t>(tissue.junctions()))
     fail("{} positions for {} junctions", positions.size(), tissue.junctions());
+  if (surface && !surface->has_outside()) surface = nullptr;
   std::vector<Vec3> before, facing;
   for (Index j = 0; j < tissue.junctions(); ++j) before.push_back(tissue.position(j));
   for (Index c = 0; c < tissue.cells() && !surface; ++c) facing.push_back(tissue.normal(c));
   set_all(tissue, positions);
-  for (Index c = 0; c < tissue.cells(); ++c) {
-    const Vec3 outward = surface ? surface->normal(tissue.centroid(c)) : facing[static_cast<size_t>(c)];
-    const char* problem = problem_of(tissue, c, tissue.polygon(c), outward);
-    if (!problem) continue;
-    const Vec3 place = tissue.centroid(c);
+  std::string problem;
+  try {
+    problem = problem_of(tissue, surface, facing);
+  } catch (...) {
     set_all(tissue, before);
-    fail("this movement is not possible: cell {} {} (near {:.4g}, {:.4g}, {:.4g}); the tissue stays as it was",
-         tissue.id(Kind::cell, c), problem, place.x(), place.y(), place.z());
+    throw;
   }
+  if (problem.empty()) return;
+  set_all(tissue, before);
+  fail("this movement is not possible: {}; the tissue stays as it was", problem);
 }
 
-void grow(Tissue& tissue, const Surface& surface, double t, double dt) {
+std::vector<Vec3> advanced(Tissue& tissue, const Surface& surface, double t, double dt) {
   if (!std::isfinite(t) || !std::isfinite(dt))
     fail("time and time step of growth must be finite, not {} and {}", t, dt);
   if (!tissue.has_geometry()) fail("a tissue without geometry (line, ring, grid, cylinder) cannot grow by moving");
   if (tissue.locked()) fail("a tissue cannot grow while rules run");
+  const LockWhile surface_may_be_a_script(tissue);
   std::vector<Vec3> positions;
   positions.reserve(static_cast<size_t>(tissue.junctions()));
-  {
-    const LockWhile surface_may_be_a_script(tissue);
-    for (Index j = 0; j < tissue.junctions(); ++j) positions.push_back(surface.advance(tissue.position(j), t, dt));
-  }
-  move_junctions(tissue, positions, &surface);
+  for (Index j = 0; j < tissue.junctions(); ++j) positions.push_back(surface.advance(tissue.position(j), t, dt));
+  return positions;
+}
+
+void grow(Tissue& tissue, const Surface& surface, double t, double dt) {
+  move_junctions(tissue, advanced(tissue, surface, t, dt), &surface);
 }
 
 }  // namespace tunica

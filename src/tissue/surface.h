@@ -13,17 +13,24 @@ class Surface {
   virtual Vec3 advance(const Vec3& p, double t, double dt) const = 0;
   /// The point of the surface closest to a point in space.
   virtual Vec3 closest(const Vec3& p) const = 0;
-  /// Outward unit normal at a point of the surface.
+  /// Outward unit normal where the surface is closest to a point.
   virtual Vec3 normal(const Vec3& p) const = 0;
+  /// Whether it is known which side is outward. If not, normal() is an error, and cells keep facing where they do.
+  virtual bool has_outside() const { return true; }
 };
 
+/// Where every junction will be when the surface has grown from time t on for dt. The tissue is locked meanwhile: the
+/// surface may be a script. Errors: t or dt not finite; no geometry; locked; what the surface throws.
+std::vector<Vec3> advanced(Tissue& tissue, const Surface& surface, double t, double dt);
+
 /// Moves every junction along with the surface and measures the tissue anew. Checks each cell: its area is positive,
-/// its polygon does not cross itself, it is not turned over. If anything fails the tissue stays as it was. Errors: dt
-/// not finite; a cell that would be impossible (named); what the surface throws; the tissue is locked.
+/// its polygon does not cross itself, it is not turned over. If anything fails the tissue stays as it was. Errors:
+/// those of advanced(); a cell that would be impossible (named).
 void grow(Tissue& tissue, const Surface& surface, double t, double dt);
 
 /// Puts the junctions at these positions (one each), with the checks and guarantees of grow().
-/// @param surface  for the outward side; nullptr: a cell may not turn over against where it faces now
+/// @param surface  for the outward side; nullptr, or no outside known: a cell may not turn over against where it faces
+/// now
 void move_junctions(Tissue& tissue, const std::vector<Vec3>& positions, const Surface* surface = nullptr);
 
 }  // namespace tunica

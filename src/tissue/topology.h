@@ -110,6 +110,9 @@ Index previous_to(const Tissue& tissue, Index cell, Index n);
 
 /// Removes a cell (ablation). Works with and without geometry. Errors: locked.
 void remove_cell(Tissue& tissue, Index cell);
+/// Removes several cells, in the order of their identities. Time is proportional to the cells removed. Errors: locked;
+/// one of them is not there; nothing would be left. The tissue is then as it was.
+void remove_cells(Tissue& tissue, std::vector<Id> cells);
 
 // === Graphs: tissues without geometry (VV's splice, make nb_of). Errors: the tissue has geometry, is locked.
 
