@@ -2,6 +2,7 @@
 --- Tissues from nothing, from polygons and from files.
 
 local core = require "tunica.core"
+local surfaces = require "tunica.surfaces"
 local op = require("tunica.registry").op
 
 local most = 4000000
@@ -77,6 +78,22 @@ op { name = "tunica.sheet", kind = "named",
   returns = "a tissue", source = "thesis 3.4",
   fn = function(t) return (core.build_sheet(t.cells, t.max_area, t.variation, t.growth, t.seed)) end,
   example = example "local tissue = tunica.sheet { cells = 50, seed = 3 }" }
+op { name = "tunica.apex_tissue", kind = "named",
+  args = { { name = "on", type = "surface", required = true, doc = "the apex" },
+    { name = "to", type = "number", above = 0, max = 1e12, unit = "length",
+      doc = "arc length from the tip up to which the cells cover it" },
+    { name = "cells", type = "integer", min = 1, max = 1000000, doc = "instead: the number of cells" },
+    { name = "max_area", type = "number", above = 0, max = 1e12, default = 0.01, unit = "area",
+      doc = "area at which a cell divides; the mean comes to about 0.7 of it" },
+    { name = "variation", type = "number", min = 0, below = 1, default = 0.3, doc = "of that area from cell to cell, relative" },
+    { name = "growth", type = "number", above = 0, max = 1, default = 0.02,
+      doc = "relative growth of areas between two divisions, at most, where growth is fastest" }, seed },
+  doc = "The cells of an apex, grown from one octagon at its tip by the growth of the apex and by division.",
+  returns = "a tissue", source = "thesis 3.3, 3.4, figs 3.6, 3.7",
+  fn = function(t)
+    return (core.build_apex_tissue(surfaces.core_of(t.on), t.to or 0, t.cells or 0, t.max_area, t.variation, t.growth, t.seed))
+  end,
+  example = example 'local apex = tunica.apex { profile = "dome" }\nlocal tissue = tunica.apex_tissue { on = apex, to = 0.5 }' }
 op { name = "tunica.polygons", returns = "a tissue",
   args = { { name = "cells", type = "list", of = "list", count = { 1 }, required = true,
       doc = "polygons, each a list of corners { x, y } or { x, y, z }" },

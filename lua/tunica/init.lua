@@ -6,8 +6,9 @@ local registry = require "tunica.registry"
 local core = require "tunica.core"
 
 -- Each part declares its operations with the registry.
-local parts = { "builders", "elements", "tissue", "shapes", "model", "phyllotaxis", "view", "plot", "phyllotaxis_view", "run" }
-for _, part in ipairs(parts) do
+for _, part in ipairs {
+  "elements", "surfaces", "builders", "tissue", "shapes", "model", "phyllotaxis", "view", "plot", "phyllotaxis_view", "run",
+} do
   require("tunica." .. part)
 end
 

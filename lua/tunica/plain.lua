@@ -88,8 +88,14 @@ function plain.decode(text, tissue) return (decode(text, 1, tissue)) end
 
 local library = "=tunica/"
 
---- Calls visit(key, value, set) for each plain upvalue of the functions in `list`, and of functions these hold, in an
--- order that depends on the script alone.
+local kept = setmetatable({}, { __mode = "k" })
+
+--- An object of the library has state of its own: get() gives it as a plain table, set(table) goes back to it. It is saved
+-- with the upvalue that holds the object.
+function plain.keep(object, get, set) kept[object] = { get = get, set = set } end
+
+--- Calls visit(key, value, set, whole) for each plain upvalue of the functions in `list`, and of functions these hold, in
+-- an order that depends on the script alone. With `whole`, the value is a copy of an object's state.
 local function each_upvalue(list, visit)
   local seen, seen_functions, number = {}, {}, 0
   local function walk(fn)
@@ -102,6 +108,8 @@ local function each_upvalue(list, visit)
         number = number + 1
         if type(value) == "function" then
           walk(value)
+        elseif value ~= nil and kept[value] then
+          visit(number .. ":" .. name, kept[value].get(), kept[value].set, true)
         elseif value == nil or plain.is_plain(value) then
           visit(number .. ":" .. name, value, function(new) core.set_upvalue(fn, i, new) end)
         end
@@ -132,9 +140,9 @@ end
 plain.refill = refill
 
 function plain.set_upvalues(list, saved)
-  each_upvalue(list, function(key, value, set)
+  each_upvalue(list, function(key, value, set, whole)
     local old = saved.values[key]
-    if is_plain_table(value) and is_plain_table(old) then
+    if not whole and is_plain_table(value) and is_plain_table(old) then
       refill(value, old)
     elseif old ~= nil then
       set(old)

@@ -3,6 +3,7 @@
 
 local core = require "tunica.core"
 local registry = require "tunica.registry"
+local surfaces = require "tunica.surfaces"
 local op, fail = registry.op, registry.fail
 
 local setup = [[
@@ -131,6 +132,23 @@ local tunica = require "tunica"
 local tissue = tunica.cylinder { around = 10, rows = 4 }
 tissue:remove_row()
 print(#tissue)]] }
+op { name = "tissue:remove", kind = "named", returns = "the number of cells removed",
+  args = {
+    { name = "where", type = "function", position = 1, doc = "function(c) that returns true for the cells that go" },
+    { name = "on", type = "surface", doc = "instead, on an apex: with `beyond`" },
+    { name = "beyond", type = "number", min = 0, unit = "length",
+      doc = "cells go whose centroid is farther than this from the tip, along the profile" },
+  },
+  doc = "Removes cells, in the order of their identities. Their handles then say so. Walls that they shared become border walls; " ..
+    "without geometry these go. At least one cell must stay.",
+  fn = function(self, t)
+    if t.where and not t.on and not t.beyond then return (core.remove_cells(self, t.where)) end
+    if t.where or not t.on or not t.beyond then
+      fail("tissue:remove: give where = function(c) ... end, or on = apex and beyond = arc length")
+    end
+    return (core.remove_beyond(self, surfaces.core_of(t.on), t.beyond))
+  end,
+  example = setup .. "print(tissue:remove { where = function(c) return c.x > 2 end })" }
 op { name = "tissue:renumber", fn = core.renumber,
   doc = "Puts the cells into an order in memory in which neighbours lie near each other: rules then run faster on large " ..
     "tissues that have grown. Nothing else changes, identities least of all.",
@@ -158,6 +176,19 @@ local tunica = require "tunica"
 local tissue = tunica.sheet { cells = 20, seed = 1 }
 ]]
 
+--- Whether the cells have the columns that say where they are on an apex.
+local function has_place(tissue)
+  local found = 0
+  for _, name in ipairs(core.columns(tissue, "cell")) do
+    if name == "theta" or name == "a" then found = found + 1 end
+  end
+  return found == 2
+end
+
+local function relocate(tissue, surface)
+  if has_place(tissue) and core.is_on_apex(surface) then core.locate(tissue, surface) end
+end
+
 op { name = "tissue:grow", kind = "named", source = "thesis 3.3, 10.2",
   args = {
     { name = "rate", type = "number", position = 1, unit = "1 / time",
@@ -167,18 +198,26 @@ op { name = "tissue:grow", kind = "named", source = "thesis 3.3, 10.2",
     { name = "direction", type = "vector", default = { 1, 0 }, doc = "the first of two rates is along this direction" },
     { name = "centre", type = "vector", default = { 0, 0 }, doc = "the point that stays where it is" },
     { name = "velocity", type = "function", doc = "instead: function(x, y, z, t) that returns vx, vy (and vz)" },
+    { name = "on", type = "surface", doc = "instead: as this surface grows. Cell columns `theta` and `a`, if both are declared, are " ..
+      "kept up to date on an apex (see tissue:locate)" },
     { name = "time", type = "number", min = 0, default = 1, unit = "time", doc = "how long" },
-    { name = "from", type = "number", default = 0, unit = "time", doc = "t at the start, for a velocity that changes" },
+    { name = "from", type = "number", unit = "time",
+      doc = "the time at the start, for a velocity or surface that changes; 0, or that of a surface that bulges, if left out" },
     { name = "substeps", type = "integer", min = 1, max = 1000, default = 1, doc = "for a velocity: steps within the time" },
   },
-  doc = "Lets a tissue in the plane grow for some time: uniformly, at two rates, or by a field of velocities. The " ..
-    "structure stays as it is; state is not diluted.",
+  doc = "Lets a tissue grow for some time: in the plane uniformly, at two rates, or by a field of velocities, or with the " ..
+    "surface it lies on. The structure stays as it is; state is not diluted. If a cell would become impossible that is an " ..
+    "error, and nothing moves.",
   fn = function(self, t)
-    local ways = (t.rate and 1 or 0) + (t.rates and 1 or 0) + (t.velocity and 1 or 0)
-    if ways ~= 1 then fail("tissue:grow: give one of rate, rates and velocity") end
-    if t.rate then core.grow_uniform(self, t.time, t.rate, t.centre)
+    local ways = (t.rate and 1 or 0) + (t.rates and 1 or 0) + (t.velocity and 1 or 0) + (t.on and 1 or 0)
+    if ways ~= 1 then fail("tissue:grow: give one of rate, rates, velocity and on") end
+    if t.on then
+      local surface = surfaces.core_of(t.on)
+      core.grow_on(self, surface, t.time, t.from)
+      relocate(self, surface)
+    elseif t.rate then core.grow_uniform(self, t.time, t.rate, t.centre)
     elseif t.rates then core.grow_anisotropic(self, t.time, t.rates[1], t.rates[2], t.direction, t.centre)
-    else core.grow_field(self, t.time, t.velocity, t.from, t.substeps) end
+    else core.grow_field(self, t.time, t.velocity, t.from or 0, t.substeps) end
   end,
   example = sheet .. [[
 tissue:grow { rate = 0.01, time = 2 }
@@ -190,6 +229,21 @@ op { name = "tissue:deform",
     "error, and nothing moves.",
   fn = core.deform,
   example = sheet .. "tissue:deform(function(x, y) return x, y, -0.1 * (x * x + y * y) end)" }
+
+op { name = "tissue:locate", kind = "named", returns = "the tissue", source = "thesis (3.1)",
+  args = { { name = "on", type = "surface", required = true, position = 1, doc = "the apex that the tissue lies on, bulging or not" } },
+  doc = "Gives the cells columns `theta` (degrees, 0 on the axis) and `a` (arc length from the tip): the place of the centroid " ..
+    "on an apex, for rules that depend on zones. tissue:grow and tissue:divide with the same `on` keep them up to date.",
+  fn = function(self, t)
+    core.locate(self, surfaces.core_of(t.on))
+    return self
+  end,
+  example = [[
+local tunica = require "tunica"
+local apex = tunica.apex { profile = "dome" }
+local tissue = tunica.apex_tissue { on = apex, cells = 20 }
+tissue:locate { on = apex }
+print(tissue:max "a")]] }
 
 -- How walls are laid: the same for one cell and for all.
 local function division_options(others)
@@ -203,6 +257,7 @@ local function division_options(others)
       doc = "least distance of the wall's ends from junctions; 0.15 of the square root of the cell's area if left out" },
     { name = "pinch", type = "number", min = 0, below = 0.5, default = 0.08,
       doc = "how far the wall's ends are drawn in, as a fraction of its length" },
+    { name = "on", type = "surface", doc = "the surface that the tissue lies on: new junctions are put onto it" },
   } do others[#others + 1] = spec end
   return others
 end
@@ -221,7 +276,11 @@ op { name = "tissue:divide", kind = "named", returns = "the number of divisions"
   doc = "Divides cells, in the order of their identities. Four walls never meet in one point, and the ends of the wall are " ..
     "pinched as in living tissue. What daughters get is said where the columns are declared.",
   fn = function(self, t)
-    return (core.divide_cells(self, t.above, t.variation, t.where, t.max_cells, rule_of(t), t.direction, t.gap, t.pinch))
+    local surface = t.on and surfaces.core_of(t.on)
+    local divisions = core.divide_cells(self, t.above, t.variation, t.where, t.max_cells, rule_of(t), t.direction, t.gap,
+      t.pinch, surface)
+    if surface then relocate(self, surface) end
+    return divisions
   end,
   example = sheet .. [[
 print(tissue:divide { above = 0.5, variation = 0.1 })
@@ -230,7 +289,12 @@ print(tissue:divide { where = function(c) return c.id < 5 end, rule = function(c
 op { name = "cell:divide", kind = "named", returns = "the two daughters", source = "thesis 3.4",
   args = division_options {},
   doc = "Divides the cell. The cell itself is then gone: its handles are errors that name the daughters.",
-  fn = function(self, t) return core.divide_cell(self, rule_of(t), t.direction, t.gap, t.pinch) end,
+  fn = function(self, t)
+    local surface = t.on and surfaces.core_of(t.on)
+    local first, second = core.divide_cell(self, rule_of(t), t.direction, t.gap, t.pinch, surface)
+    if surface and has_place(first.tissue) and core.is_on_apex(surface) then core.locate_around(surface, first, second) end
+    return first, second
+  end,
   example = sheet .. "local a, b = tissue:cells()():divide { direction = { 0, 1 } }\nprint(a.area, b.area)" }
 
 -- What it comes to -------------------------------------------------------------------------------------------------

@@ -43,6 +43,7 @@ local arguments = {
   { name = "wireframe", type = "boolean", doc = "with place: only lines between neighbours" },
   { name = "camera", type = "table", doc = "{ direction = { x, y, z }, up =, perspective = true or false, zoom =, centre =, " ..
     "extent = half of what must fit }" },
+  { name = "light", type = "boolean", doc = "a lamp, so that surfaces in space look round; on by default where `place` is given" },
   { name = "background", type = "string", doc = "colour of the ground" },
   { name = "transparent", type = "boolean", doc = "no ground" },
   { name = "outline", type = "string|boolean", doc = "colour of the lines around cells; false: none" },
@@ -127,7 +128,7 @@ end
 --- What core.draw takes, from the options a user gave (checked one by one already); errors for what does not fit.
 local function settings_of(given)
   local out = { palette = given.palette, colour = given.colour, labels = given.labels, bars = given.bars, place = given.place,
-    wireframe = given.wireframe, transparent = given.transparent }
+    wireframe = given.wireframe, light = given.light, transparent = given.transparent }
   for _, name in ipairs { "background", "plain" } do out[name] = colour(name, given[name]) end
   if type(given.palette) == "table" then
     if #given.palette < 2 then fail("palette: a list needs at least two colours") end

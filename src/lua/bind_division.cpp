@@ -4,6 +4,7 @@
 #include <deque>
 
 #include "lua/bind_tissue.h"
+#include "lua/surfaces.h"
 #include "tissue/division.h"
 
 namespace tunica::lua {
@@ -94,14 +95,15 @@ void require_divisible(const Tissue& tissue) {
     fail("cells without geometry cannot be divided: build the tissue with geometry, as a sheet");
 }
 
-/// divide_cell(cell, rule, direction, gap, pinch) -> first, second
+/// divide_cell(cell, rule, direction, gap, pinch, surface or nil) -> first, second
 int divide_cell(lua_State* L) {
   return guard(L, [&] {
-    lua_settop(L, 5);
+    lua_settop(L, 6);
     const auto [tissue, kind, cell] = check_element(L, 1, Kind::cell);
     require_divisible(tissue);
     const Entering entering(L);
-    const Division done = divide(tissue, cell, rule_at(L, 2, tissue), settings_at(L, 4));
+    const auto surface = optional_surface_at(L, 6);
+    const Division done = divide(tissue, cell, rule_at(L, 2, tissue), settings_at(L, 4), surface.get());
     push_element(L, 1, Kind::cell, done.first);
     push_element(L, 1, Kind::cell, done.second);
     return 2;
@@ -119,7 +121,7 @@ bool chosen(lua_State* L, int function, Tissue& tissue, Index cell) {
 /// Divides the cells that the function at stack index `where` chooses, in order of identity; and, with a threshold,
 /// only those above it, and then their daughters in turn.
 int64_t divide_where(lua_State* L, Tissue& tissue, int where, const Threshold* threshold, int64_t most_cells,
-                     const DivisionRule& rule, const DivisionSettings& settings) {
+                     const DivisionRule& rule, const DivisionSettings& settings, const Surface* surface) {
   std::deque<Id> waiting;
   for (Index i = 0; i < tissue.cells(); ++i) waiting.push_back(tissue.id(Kind::cell, i));
   std::sort(waiting.begin(), waiting.end());
@@ -129,7 +131,7 @@ int64_t divide_where(lua_State* L, Tissue& tissue, int where, const Threshold* t
     const Index cell = tissue.find(Kind::cell, waiting.front());
     if (cell == none || (threshold && !(tissue.area(cell) > threshold_of(tissue, cell, *threshold)))) continue;
     if (!chosen(L, where, tissue, cell)) continue;
-    const Division done = divide(tissue, cell, rule, settings);
+    const Division done = divide(tissue, cell, rule, settings, surface);
     ++divisions;
     if (!threshold) continue;
     for (const Index daughter : {done.first, done.second}) waiting.push_back(tissue.id(Kind::cell, daughter));
@@ -137,15 +139,17 @@ int64_t divide_where(lua_State* L, Tissue& tissue, int where, const Threshold* t
   return divisions;
 }
 
-/// divide_cells(tissue, above, variation, where, max_cells, rule, direction, gap, pinch) -> number of divisions
+/// divide_cells(tissue, above, variation, where, max_cells, rule, direction, gap, pinch, surface or nil) -> number of
+/// divisions
 int divide_cells(lua_State* L) {
   return guard(L, [&] {
-    lua_settop(L, 9);
+    lua_settop(L, 10);
     Tissue& tissue = tissue_at(L, 1);
     require_divisible(tissue);
     const Entering entering(L);
     const DivisionRule rule = rule_at(L, 6, tissue);
     const DivisionSettings settings = settings_at(L, 8);
+    const auto surface = optional_surface_at(L, 10);
     Threshold threshold;
     if (!lua_isnil(L, 2)) threshold.area = check_number(L, 2, "'above'");
     if (!(threshold.area > 0)) fail("'above' must be an area greater than 0, came {}", threshold.area);
@@ -154,11 +158,11 @@ int divide_cells(lua_State* L) {
     int64_t divisions = 0;
     if (lua_isnil(L, 4)) {
       if (lua_isnil(L, 2)) fail("say which cells divide: above = area, or where = function(c) ... end");
-      divisions = divide_above(tissue, threshold, rule, settings, nullptr, &host(L).cancel);
+      divisions = divide_above(tissue, threshold, rule, settings, surface.get(), &host(L).cancel);
     } else {
       check_function(L, 4, "'where'");
-      divisions =
-          divide_where(L, tissue, 4, lua_isnil(L, 2) ? nullptr : &threshold, threshold.most_cells, rule, settings);
+      divisions = divide_where(L, tissue, 4, lua_isnil(L, 2) ? nullptr : &threshold, threshold.most_cells, rule,
+                               settings, surface.get());
     }
     lua_pushnumber(L, static_cast<double>(divisions));
     return 1;

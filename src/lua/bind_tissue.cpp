@@ -12,6 +12,8 @@ void register_tissue(lua_State* L) {
   register_structure(L);
   register_division(L);
   register_growth(L);
+  register_surfaces(L);
+  register_apex_tissue(L);
 }
 
 }  // namespace tunica::lua

@@ -16,7 +16,9 @@ void register_columns(lua_State* L);    ///< declaring, filling, summing
 void register_builders(lua_State* L);   ///< tissues from nothing and from files
 void register_structure(lua_State* L);  ///< removal, rows, graphs, numbering, validity
 void register_division(lua_State* L);
-void register_growth(lua_State* L);  ///< growth, statistics, peaks, files
+void register_growth(lua_State* L);    ///< growth, statistics, peaks, files
+void register_surfaces(lua_State* L);  ///< surfaces, growth and removal on them
+void register_apex_tissue(lua_State* L);
 
 /// Adds C functions to the table on top of the stack.
 inline void add_functions(lua_State* L, const luaL_Reg* functions) {

@@ -202,6 +202,7 @@ ViewSettings read_view_settings(lua_State* L, Tissue& tissue, int table) {
   read_places(reader, tissue, s);
   s.wireframe = reader.boolean("wireframe").value_or(false);
   read_camera(reader, s);
+  s.light = reader.boolean("light");
   return s;
 }
 

@@ -143,6 +143,7 @@ void add_cells(const Tissue& tissue, const Paint& paint, const Outlines& outline
   for (Index c = 0; c < tissue.cells(); ++c) {
     const uint32_t first = outlines.first[static_cast<size_t>(c)];
     scene.polygons.push_back({first, outlines.first[static_cast<size_t>(c) + 1] - first, paint.of(c)});
+    scene.polygons.back().smooth = paint.settings.light.value_or(false);
   }
   add_bands(paint, outlines, scene);
   // Lines around cells of a few pixels would hide their colours.

@@ -135,6 +135,7 @@ Scene scene_of(const Tissue& tissue, const ViewSettings& s) {
       add_surface(tissue, paint, scene);
       break;
   }
+  if (s.light) scene.light.on = *s.light;
   return scene;
 }
 

@@ -29,7 +29,7 @@ tissue:cell { auxin = 1 }
 check.fails(function() tissue.divide { above = 1 } end, "tissue:divide", "with a colon")
 check.fails(function() local s = tissue:sum "auxn" end, "must be the name of a column", "did you mean 'auxin'?")
 check.fails(function() local s = tissue:sum("auxin", 3) end, "tissue:sum takes 1 argument, came one more: the number 3")
-check.fails(function() tissue:grow { rate = 1, rates = { 1, 2 } } end, "one of rate, rates and velocity")
+check.fails(function() tissue:grow { rate = 1, rates = { 1, 2 } } end, "one of rate, rates, velocity and on")
 check.fails(function() tissue:grow { rates = { 1, "x" } } end, "'rates' must be a list of 2 items", "item 2 is the text 'x'")
 check.fails(function() tissue:grow { rate = 0.1, direction = { 1 } } end, "'direction' must be a point or direction")
 check.fails(function() local n = tissue:find(1):wall_to(tissue:find(1, "wall")) end, "'other' must be a cell", "came wall 1")
