@@ -163,6 +163,16 @@ int peaks(lua_State* L) {
   });
 }
 
+/// checkerboard(tissue, column)
+int checkerboard_of(lua_State* L) {
+  return guard(L, [&] {
+    Tissue& tissue = tissue_at(L, 1);
+    lua_pushnumber(L,
+                   checkerboard_index(tissue, tissue.column(Kind::cell, check_string(L, 2, "a column")).values.data()));
+    return 1;
+  });
+}
+
 int count_peaks(lua_State* L) {
   return guard(L, [&] {
     lua_settop(L, 3);
@@ -198,15 +208,11 @@ int load_tissue(lua_State* L) {
 }  // namespace
 
 void register_growth(lua_State* L) {
-  const luaL_Reg functions[] = {{"grow_uniform", grow_uniform},
-                                {"grow_anisotropic", grow_anisotropic},
-                                {"grow_field", grow_field},
-                                {"deform", deform},
-                                {"statistics", statistics},
-                                {"peaks", peaks},
-                                {"count_peaks", count_peaks},
-                                {"load_tissue", load_tissue},
-                                {nullptr, nullptr}};
+  const luaL_Reg functions[] = {{"grow_uniform", grow_uniform}, {"grow_anisotropic", grow_anisotropic},
+                                {"grow_field", grow_field},     {"deform", deform},
+                                {"statistics", statistics},     {"peaks", peaks},
+                                {"count_peaks", count_peaks},   {"checkerboard", checkerboard_of},
+                                {"load_tissue", load_tissue},   {nullptr, nullptr}};
   add_functions(L, functions);
 }
 

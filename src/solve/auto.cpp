@@ -20,7 +20,10 @@ constexpr int least_steps = 3, trial_steps = 14;
 constexpr uint64_t trial_evaluations = 400;  ///< and no more than so many evaluations
 /// Work between choices, in trials: at first, and after many that changed nothing.
 constexpr double least_patience = 4, most_patience = 40;
-constexpr double least_wait = 100;  ///< evaluations
+/// Evaluations before the next choice: soon after the first, since a transient tells little of what comes; later where
+/// the cost seems to have changed, since after a restart it always does.
+constexpr double least_wait = 50, wait_if_changed = 200;
+constexpr double usual_look = 25;  ///< evaluations that a look at rkc2 alone costs
 /// Methods whose steps are as long as they are stable must beat rkc2 by so much: its steps can grow when the state
 /// grows smooth, theirs cannot.
 constexpr double advantage = 1.6;
@@ -134,8 +137,8 @@ class Auto : public Stepper {
     const bool different = recent_ > changed * expected_ || (which_ != rkc && recent_ * changed < expected_);
     const double waits = different ? std::min(patience_, least_patience) : patience_;
     // Another look mostly tries rkc2 alone: the others' least costs are known.
-    const double look = std::min(static_cast<double>(spent_on_trials_), which_ == rkc ? 1e300 : least_wait / 2);
-    return static_cast<double>(since_) > std::max(least_wait, waits * look);
+    const double look = std::min(static_cast<double>(spent_on_trials_), which_ == rkc ? 1e300 : usual_look);
+    return static_cast<double>(since_) > std::max(different ? wait_if_changed : least_wait, waits * look);
   }
 
   /// What the method in use has done, added to what others did before it and to the trials.

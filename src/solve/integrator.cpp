@@ -6,6 +6,7 @@
 
 #include "solve/integrator_run.h"
 #include "solve/spectral_radius.h"
+#include "tissue/statistics.h"
 
 namespace tunica {
 
@@ -159,7 +160,9 @@ void Integrator::fixed_step(double h, double end) {
                  "tunica.model"
                : "try a smaller dt, or look for a division by zero in its rule");
   if (const auto symptom = watch_.oscillation(*system_, steps_, y_.data(), y_new_.data()))
-    refuse(*symptom, end, "the change turns round at every step and grows: dt is too long for this method");
+    refuse(
+        *symptom, end,
+        "the change turns round at every step and grows" + alternation(*symptom) + ": dt is too long for this method");
   std::swap(y_, y_new_);
   stepper_->accepted();
   begin_ = begin;
@@ -222,6 +225,15 @@ void Integrator::check_derived(int column) {
 std::string Integrator::method() const {
   const std::string step = adaptive() ? fmt::format("tolerance {:.6g}", tolerance_) : fmt::format("dt {:.6g}", dt_);
   return fmt::format("method {}, {}", stepper_->name(), step);
+}
+
+std::string Integrator::alternation(const Watch::Symptom& symptom) const {
+  const System::StateColumn& s = system_->state()[symptom.column];
+  if (s.kind != Kind::cell) return "";
+  std::vector<double> change(s.count);
+  for (Index c = 0; c < s.count; ++c) change[c] = y_new_.data()[s.offset + c] - y_.data()[s.offset + c];
+  const double index = checkerboard_index(system_->tissue(), change.data());
+  return index < checkerboard ? "" : fmt::format(", up and down from cell to cell (checkerboard index {:.2f})", index);
 }
 
 void Integrator::refuse(const Watch::Symptom& symptom, double time, const std::string& advice) {

@@ -97,6 +97,7 @@ class Integrator {
   void interpolate(double time, double* y);
   void check_derived(int column);
   std::string method() const;  ///< in words, for messages
+  std::string alternation(const Watch::Symptom& symptom) const;
   [[noreturn]] void refuse(const Watch::Symptom& symptom, double time, const std::string& advice);
   [[noreturn]] void refuse_method(const StepResult& result, double time);
   std::string explanation();

@@ -26,16 +26,89 @@ class Coefficients {
     }
   }
   double operator[](Index edge) const { return each_.empty() ? same_ : same_ + each_[edge]; }
+  bool negative() const {
+    return !(each_.empty() ? same_ >= 0
+                           : std::all_of(each_.begin(), each_.end(), [&](double k) { return same_ + k >= 0; }));
+  }
 
  private:
   double same_ = 0;
   std::vector<double> each_;
 };
 
+/// Decay of cell c: minus the derivative when the column is raised everywhere alike.
+class Decay {
+ public:
+  explicit Decay(const System::Values& uniform)
+      : values_(uniform.data), stride_(uniform.per == System::Values::Per::all ? 0 : 1) {}
+  double operator[](Index c) const { return -values_[c * stride_]; }
+
+ private:
+  const double* values_;
+  int stride_;
+};
+
+[[noreturn]] void fail_undetermined(const System& system, Index c) {
+  fail(
+      "the steady state is not determined: nothing decays in the piece of tissue around cell {}, so its total stays "
+      "what "
+      "it is at the start; give it a decay, or run the model to the end",
+      system.tissue().id(Kind::cell, c));
+}
+
+[[noreturn]] void fail_alone(const System& system, Index c) {
+  fail("the steady state is not determined: cell {} neither decays nor exchanges", system.tissue().id(Kind::cell, c));
+}
+
+/// Cells numbered along a row: the elimination of a tree without its book-keeping, as one would write it by hand.
+class Row {
+ public:
+  explicit Row(const Layout& l) : n_(l.cells), up_(l.cells, none), down_(l.cells, none) {
+    if (n_ < 2 || l.edges != 2 * (n_ - 1)) return;
+    for (Index e = 0; e < l.edges; ++e) {
+      const Index c = l.own[e], step = l.across[e] - c;
+      if (step != 1 && step != -1) return;
+      int32_t& place = step == 1 ? up_[c] : down_[c];
+      if (place != none) return;  // a second wall between the same cells
+      place = e;
+    }
+    is_row_ = true;
+  }
+  bool is_row() const { return is_row_; }
+
+  /// False: a coefficient has the wrong sign.
+  bool solve(const System& system, const Coefficients& k, const Decay& decay, const double* source, double* b) const {
+    if (k.negative()) return false;
+    LargeVector<double> pivot(n_);
+    double passed_e = 0, passed_b = 0;
+    for (Index c = 0; c < n_; ++c) {
+      const double e = decay[c] + passed_e;
+      if (!(e >= 0)) return false;
+      b[c] = source[c] + passed_b;
+      pivot[c] = e;
+      if (c == n_ - 1) break;
+      pivot[c] += k[up_[c]];
+      if (!(pivot[c] > 0)) fail_alone(system, c);
+      const double passed = k[down_[c + 1]] / pivot[c];
+      passed_e = passed * e;
+      passed_b = passed * b[c];
+    }
+    if (!(pivot[n_ - 1] > 0)) fail_undetermined(system, n_ - 1);
+    b[n_ - 1] /= pivot[n_ - 1];
+    for (Index c = n_ - 1; c-- > 0;) b[c] = (b[c] + k[up_[c]] * b[c + 1]) / pivot[c];
+    return true;
+  }
+
+ private:
+  Index n_;
+  LargeVector<int32_t> up_, down_;  ///< half-edge of cell c to c + 1, to c - 1
+  bool is_row_ = false;
+};
+
 class Elimination {
  public:
-  Elimination(const System& system, const Jacobian& jacobian, const double* source, double* y)
-      : system_(system), l_(system.layout()), k_(l_, jacobian), b_(y) {
+  Elimination(const System& system, const Coefficients& k, const Decay& decay, const double* source, double* y)
+      : system_(system), l_(system.layout()), k_(k), b_(y) {
     const size_t n = l_.cells;
     first_.resize(n);
     waiting_.resize(n);
@@ -44,10 +117,8 @@ class Elimination {
       first_[l_.own[e]] = e;
       ++waiting_[l_.own[e]];
     }
-    const System::Values uniform = jacobian.uniform();
-    const bool same = uniform.per == System::Values::Per::all;
     e_.resize(n);
-    for (size_t c = 0; c < n; ++c) e_[c] = -uniform.data[same ? 0 : c];
+    for (Index c = 0; c < l_.cells; ++c) e_[c] = decay[c];
     std::copy(source, source + n, b_);
     order_.reserve(n);
   }
@@ -79,12 +150,7 @@ class Elimination {
   static constexpr Index refused = -2;
 
   void finish_piece(Index c) {
-    if (!(e_[c] > 0))
-      fail(
-          "the steady state is not determined: nothing decays in the piece of tissue around cell {}, so its total "
-          "stays "
-          "what it is at the start; give it a decay, or run the model to the end",
-          system_.tissue().id(Kind::cell, c));
+    if (!(e_[c] > 0)) fail_undetermined(system_, c);
     first_[c] = -1;
     order_.push_back(c);
   }
@@ -98,9 +164,7 @@ class Elimination {
     while (l_.across[down] != c) ++down;  // two walls between the same cells would be a cycle
     const double k_up = k_[up], k_down = k_[down], pivot = e_[c] + k_up;
     if (!(k_up >= 0) || !(k_down >= 0)) return refused;
-    if (!(pivot > 0))
-      fail("the steady state is not determined: cell {} neither decays nor exchanges",
-           system_.tissue().id(Kind::cell, c));
+    if (!(pivot > 0)) fail_alone(system_, c);
     const double passed = k_down / pivot;
     e_[p] += passed * e_[c];
     b_[p] += passed * b_[c];
@@ -113,7 +177,7 @@ class Elimination {
 
   const System& system_;
   const Layout& l_;
-  Coefficients k_;
+  const Coefficients& k_;
   LargeVector<int32_t> first_;    ///< per cell: its first half-edge; once eliminated, that to its parent, or -1
   LargeVector<int32_t> waiting_;  ///< per cell: neighbours that are left
   LargeVector<double> e_;
@@ -127,7 +191,10 @@ bool solve_tree(const System& system, const Jacobian& jacobian, const double* so
   const Layout& l = system.layout();
   if (jacobian.derivative().uniform == no_node || !jacobian.derivative().order.empty() || l.walls >= l.cells)
     return false;
-  return Elimination(system, jacobian, source, y).run();
+  const Coefficients k(l, jacobian);
+  const Decay decay(jacobian.uniform());
+  const Row row(l);
+  return row.is_row() ? row.solve(system, k, decay, source, y) : Elimination(system, k, decay, source, y).run();
 }
 
 }  // namespace tunica

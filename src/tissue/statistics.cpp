@@ -141,4 +141,25 @@ Peaks find_peaks(const Tissue& tissue, std::string_view name, double above) {
   return peaks;
 }
 
+double checkerboard_index(const Tissue& tissue, const double* values) {
+  std::vector<double> sum(tissue.cells(), 0.0), u(tissue.cells(), 0.0);
+  std::vector<int> count(tissue.cells(), 0);
+  const auto each_pair = [&](auto&& visit) {
+    for (Index wall = 0; wall < tissue.walls(); ++wall)
+      if (const Index other = tissue.wall_side(wall, 1); other != none)
+        visit(tissue.cell_of(tissue.wall_side(wall, 0)), tissue.cell_of(other));
+  };
+  each_pair([&](Index a, Index b) {
+    sum[a] += values[b], sum[b] += values[a];
+    ++count[a], ++count[b];
+  });
+  for (Index c = 0; c < tissue.cells(); ++c) u[c] = count[c] > 0 ? values[c] - sum[c] / count[c] : 0;
+  double product = 0, squares = 0;
+  each_pair([&](Index a, Index b) {
+    product += u[a] * u[b];
+    squares += u[a] * u[a] + u[b] * u[b];
+  });
+  return squares > 0 && std::isfinite(squares) ? -2 * product / squares : 0;
+}
+
 }  // namespace tunica

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "solve/problems.h"
+#include "tissue/topology.h"
 
 namespace tunica {
 namespace {
@@ -54,6 +55,20 @@ TEST(Steady, LineKeepsAllDigits) {
     worst = std::max(worst, static_cast<double>(std::fabs((p.y.data()[i - 1] - c) / c)));
   }
   EXPECT_LT(worst, 2e-12);
+}
+
+TEST(Steady, ALineWhoseCellsAreNumberedOtherwiseIsTheSameLine) {
+  const int n = 37;
+  GradientLine row(std::make_shared<Tissue>(line(n)), 1, 1, 0.01);
+  find_steady(*row.system, 0, row.y.data());
+  // Joined anew as 0, 5, 10, ...: neighbours in number are not neighbours in place.
+  auto shuffled = std::make_shared<Tissue>(line(1));
+  while (shuffled->cells() < n) add_cell(*shuffled);
+  const auto at = [&](int i) { return i * 5 % n; };
+  for (int i = 0; i + 1 < n; ++i) join(*shuffled, at(i), at(i + 1));
+  GradientLine other(shuffled, 1, 1, 0.01);
+  EXPECT_EQ(find_steady(*other.system, 0, other.y.data()).how, "elimination");
+  for (int i = 0; i < n; ++i) EXPECT_NEAR(other.y.data()[at(i)], row.y.data()[i], 1e-14 * row.y.data()[i]);
 }
 
 TEST(Steady, LinearRulesOnAGridAreSolvedDirectly) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/random.h"
 #include "tissue/builders.h"
 #include "tissue/fixtures.h"
 #include "tissue/order.h"
@@ -107,6 +108,24 @@ TEST(Order, KeepsCellsWallsAndValuesAndPutsNeighboursNear) {
   Tissue graph = grid(30, 30);
   renumber_along_curve(graph);
   testing::expect_valid(graph);
+}
+
+TEST(Checkerboard, IsOneForAlternationAndNegativeForWhatIsSmooth) {
+  const Tissue squares = grid(12, 12);
+  std::vector<double> values(144);
+  const auto fill = [&](auto&& f) {
+    for (Index c = 0; c < 144; ++c) values[c] = f(c % 12, c / 12);
+    return checkerboard_index(squares, values.data());
+  };
+  EXPECT_NEAR(fill([](int x, int y) { return (x + y) % 2 ? 3.0 : -1.0; }), 1, 1e-12);
+  EXPECT_LT(fill([](int x, int y) { return std::sin(.5 * x) * std::cos(.4 * y); }), -.5);
+  EXPECT_EQ(fill([](int, int) { return 7.0; }), 0);
+  const double noise = fill([](int x, int y) {
+    return uniform({.seed = 3, .cell = static_cast<uint64_t>(x), .step = static_cast<uint32_t>(y)});
+  });
+  EXPECT_GT(noise, .2);
+  EXPECT_LT(noise, checkerboard);
+  EXPECT_EQ(fill([](int x, int y) { return x + y == 5 ? NAN : 1.0; }), 0);
 }
 
 TEST(Columns, NamesAreCheckedAndUnknownOnesNameTheNearest) {
