@@ -108,8 +108,8 @@ class Planner {
 
   Operand kept_value(NodeId id) const {
     const Domain domain = graph_[id].domain;
-    if (domain == Domain::side) return {Place::edge_temp, edge_temp_.at(id)};
-    return computed(id) ? Operand{Place::cell_temp, kept_.at(id)} : leaf(id);
+    if (domain == Domain::side) return {Storage::edge_temp, edge_temp_.at(id)};
+    return computed(id) ? Operand{Storage::cell_temp, kept_.at(id)} : leaf(id);
   }
 
   bool computed(NodeId id) const {  // by a cell pass, as opposed to read from a column or a scalar
@@ -156,13 +156,13 @@ class Planner {
     std::map<NodeId, Operand> where;  // values at hand in this pass
     int next = 0;                     // virtual registers
     bool fixed = false;               // computes what is computed once
-    Operand fresh() { return {Place::reg, next++}; }
+    Operand fresh() { return {Storage::reg, next++}; }
   };
 
   Operand leaf(NodeId id) const {
     const Node& n = graph_[id];
-    if (n.domain == Domain::scalar) return {Place::scalar, scalar_slot_.at(id)};
-    if (n.op == Op::cell_column) return {Place::column, n.slot};
+    if (n.domain == Domain::scalar) return {Storage::scalar, scalar_slot_.at(id)};
+    if (n.op == Op::cell_column) return {Storage::column, n.slot};
     fail("internal: {} is no leaf of a cell pass", name_of(n.op));
   }
 
@@ -170,10 +170,11 @@ class Planner {
     if (id == no_node) return {};
     if (!computed(id)) return leaf(id);
     if (const auto known = e.where.find(id); known != e.where.end()) return known->second;
-    if (level(id) < now) return {Place::cell_temp, kept_.at(id)};
+    if (level(id) < now) return {Storage::cell_temp, kept_.at(id)};
     const Operand result = compute(e, id, now);
     e.where[id] = result;
-    if (kept_.count(id)) e.pass.code.push_back({.code = Code::copy, .dst = {Place::cell_temp, kept_[id]}, .a = result});
+    if (kept_.count(id))
+      e.pass.code.push_back({.code = Code::copy, .dst = {Storage::cell_temp, kept_[id]}, .a = result});
     return result;
   }
 
@@ -189,8 +190,8 @@ class Planner {
                : n.op == Op::edge_minimum ? Code::edge_minimum
                : n.op == Op::edge_maximum ? Code::edge_maximum
                                           : Code::wall_sum;
-      i.a = n.op == Op::wall_sum ? Operand{Place::wall_temp, wall_temp_.at(n.a)}
-                                 : Operand{Place::edge_temp, edge_temp_.at(n.a)};
+      i.a = n.op == Op::wall_sum ? Operand{Storage::wall_temp, wall_temp_.at(n.a)}
+                                 : Operand{Storage::edge_temp, edge_temp_.at(n.a)};
     } else if (!fuse(e, n, level(id), i, [&](NodeId x) { return cell_value(e, x, now); })) {
       i.a = cell_value(e, n.a, now);
       i.b = cell_value(e, n.b, now);
@@ -236,7 +237,7 @@ class Planner {
     i.weight = g.weight == no_node ? -1 : edge_temp_.at(g.weight);
     for (const NodeId id : g.gathers) {
       const NodeId value = graph_[id].a;
-      if (g.row < 0) i.sources.push_back(computed(value) ? Operand{Place::cell_temp, kept_.at(value)} : leaf(value));
+      if (g.row < 0) i.sources.push_back(computed(value) ? Operand{Storage::cell_temp, kept_.at(value)} : leaf(value));
       const Operand dst = e.fresh();
       i.values.push_back(dst);
       i.difference.push_back(graph_[id].value != 0);
@@ -245,7 +246,7 @@ class Planner {
     e.pass.code.push_back(i);
     for (const NodeId id : g.gathers)
       if (kept_.count(id))
-        e.pass.code.push_back({.code = Code::copy, .dst = {Place::cell_temp, kept_[id]}, .a = e.where[id]});
+        e.pass.code.push_back({.code = Code::copy, .dst = {Storage::cell_temp, kept_[id]}, .a = e.where[id]});
   }
 
   void emit_cells(int now) {
@@ -259,7 +260,7 @@ class Planner {
       if (o.is_rate)
         emit_rate(e, o, a);
       else
-        e.pass.code.push_back({.code = Code::copy, .dst = {Place::column, o.column}, .a = a});
+        e.pass.code.push_back({.code = Code::copy, .dst = {Storage::column, o.column}, .a = a});
     }
     for (const Group& g : groups_) {
       if (g.row < 0 || g.level - 1 != now) continue;
@@ -273,8 +274,9 @@ class Planner {
   /// The last product and sum of a rate are computed while the state is advanced, where nothing else needs them.
   void emit_rate(Emitter& e, const Output& o, Operand a) {
     std::vector<Instruction>& code = e.pass.code;
-    const bool last = !code.empty() && code.back().code == Code::multiply_add && code.back().dst.place == Place::reg &&
-                      code.back().dst.index == a.index && a.place == Place::reg && uses_[o.value] == 0;
+    const bool last = !code.empty() && code.back().code == Code::multiply_add &&
+                      code.back().dst.place == Storage::reg && code.back().dst.index == a.index &&
+                      a.place == Storage::reg && uses_[o.value] == 0;
     if (!last) return code.push_back({.code = Code::rate, .a = a, .column = o.column});
     Instruction i = code.back();
     code.pop_back();
@@ -285,13 +287,13 @@ class Planner {
   Operand side_value(Emitter& e, NodeId id) {
     if (id == no_node) return {};
     const Node n = graph_[id];
-    if (n.domain == Domain::scalar) return {Place::scalar, scalar_slot_.at(id)};
+    if (n.domain == Domain::scalar) return {Storage::scalar, scalar_slot_.at(id)};
     if (const auto known = e.where.find(id); known != e.where.end()) return known->second;
     if (!e.fixed && lowering_.is_fixed(id)) return fixed_value(id, e.pass.over);
     Instruction i{.code = code_of(n.op)};
     if (n.op == Op::own || n.op == Op::across) {
       i.code = n.op == Op::own ? Code::fetch_own : Code::fetch_across;
-      i.a = computed(n.a) ? Operand{Place::cell_temp, kept_.at(n.a)} : leaf(n.a);
+      i.a = computed(n.a) ? Operand{Storage::cell_temp, kept_.at(n.a)} : leaf(n.a);
     } else if (n.op == Op::wall_column || n.op == Op::side_column) {
       i.code = n.op == Op::wall_column ? Code::fetch_wall : Code::fetch_side;
       i.column = n.slot;
@@ -313,10 +315,10 @@ class Planner {
   Operand fixed_value(NodeId id, Over over) {
     if (over == Over::edges) {
       edge_temp_.try_emplace(id, plan_.edge_temps).second ? ++plan_.edge_temps : 0;
-      return {Place::edge_temp, edge_temp_[id]};
+      return {Storage::edge_temp, edge_temp_[id]};
     }
     fixed_wall_temp_.try_emplace(id, plan_.wall_temps).second ? ++plan_.wall_temps : 0;
-    return {Place::wall_temp, fixed_wall_temp_[id]};
+    return {Storage::wall_temp, fixed_wall_temp_[id]};
   }
 
   void emit_sides(int now, Over over) {
@@ -326,7 +328,7 @@ class Planner {
     for (const auto& [id, temp] : temps) {
       if (level(id) != now || (over == Over::edges && lowering_.is_fixed(id))) continue;
       const Operand a = side_value(e, id);
-      const Place place = over == Over::edges ? Place::edge_temp : Place::wall_temp;
+      const Storage place = over == Over::edges ? Storage::edge_temp : Storage::wall_temp;
       e.pass.code.push_back({.code = Code::copy, .dst = {place, temp}, .a = a});
       if (over == Over::walls) e.pass.code.push_back({.code = Code::neg, .dst = {place, temp + 1}, .a = a});
     }
@@ -350,7 +352,7 @@ class Planner {
         if (!lowering_.is_fixed(id)) continue;
         const Operand a = side_value(e, id);
         e.pass.code.push_back(
-            {.code = Code::copy, .dst = {over == Over::edges ? Place::edge_temp : Place::wall_temp, temp}, .a = a});
+            {.code = Code::copy, .dst = {over == Over::edges ? Storage::edge_temp : Storage::wall_temp, temp}, .a = a});
       }
       finish(e);
     }
@@ -363,16 +365,17 @@ class Planner {
     for (size_t k = 1; k < code.size(); ++k) {
       const Instruction copy = code[k];
       const Instruction& before = code[k - 1];
-      const bool to_temp = copy.dst.place == Place::cell_temp || copy.dst.place == Place::edge_temp ||
-                           copy.dst.place == Place::wall_temp;
-      if (copy.code != Code::copy || !to_temp || copy.a.place != Place::reg) continue;
-      if (before.code >= Code::elementwise_count || before.dst.place != Place::reg || before.dst.index != copy.a.index)
+      const bool to_temp = copy.dst.place == Storage::cell_temp || copy.dst.place == Storage::edge_temp ||
+                           copy.dst.place == Storage::wall_temp;
+      if (copy.code != Code::copy || !to_temp || copy.a.place != Storage::reg) continue;
+      if (before.code >= Code::elementwise_count || before.dst.place != Storage::reg ||
+          before.dst.index != copy.a.index)
         continue;
       code[k - 1].dst = copy.dst;
       code.erase(code.begin() + static_cast<long>(k--));
       for (size_t later = k + 1; later < code.size(); ++later)
         each_operand(code[later], [&](Operand& o) {
-          if (o.place == Place::reg && o.index == copy.a.index) o = copy.dst;
+          if (o.place == Storage::reg && o.index == copy.a.index) o = copy.dst;
         });
     }
   }
@@ -390,14 +393,14 @@ class Planner {
     std::map<int, size_t> last;
     for (size_t k = 0; k < e.pass.code.size(); ++k)
       each_operand(e.pass.code[k], [&](Operand& o) {
-        if (o.place == Place::reg) last[o.index] = k;
+        if (o.place == Storage::reg) last[o.index] = k;
       });
     std::set<int> free;
     std::map<int, int> physical;
     for (size_t k = 0; k < e.pass.code.size(); ++k) {
       std::vector<int> ended;
       each_operand(e.pass.code[k], [&](Operand& o) {
-        if (o.place != Place::reg) return;
+        if (o.place != Storage::reg) return;
         const int virtual_register = o.index;
         auto [at, fresh] = physical.try_emplace(virtual_register, -1);
         if (fresh) {

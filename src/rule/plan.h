@@ -9,7 +9,7 @@
 namespace tunica {
 
 /// Where an instruction finds or puts a block of values.
-enum class Place : uint8_t {
+enum class Storage : uint8_t {
   nowhere,
   scalar,     ///< one number for all: constants, parameters, time and what follows from them
   reg,        ///< a block-long buffer
@@ -20,7 +20,7 @@ enum class Place : uint8_t {
 };
 
 struct Operand {
-  Place place = Place::nowhere;
+  Storage place = Storage::nowhere;
   int32_t index = 0;
 };
 

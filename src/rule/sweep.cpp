@@ -50,19 +50,19 @@ Address System::Sweep::address(const Operand& o) const {
     return Address{Address::Base::memory, buffer.data() + buffer.size() / std::max(1, parts) * o.index};
   };
   switch (o.place) {
-    case Place::nowhere:
+    case Storage::nowhere:
       return {};
-    case Place::scalar:
+    case Storage::scalar:
       return {.scalar = compiled.scalars.data() + o.index};
-    case Place::reg:
+    case Storage::reg:
       return {Address::Base::registers, nullptr, static_cast<size_t>(o.index) * block_size};
-    case Place::column:
+    case Storage::column:
       return column(o.index);
-    case Place::cell_temp:
+    case Storage::cell_temp:
       return part(compiled.cell_temps, compiled.plan.cell_temps);
-    case Place::edge_temp:
+    case Storage::edge_temp:
       return part(compiled.edge_temps, compiled.plan.edge_temps);
-    case Place::wall_temp:
+    case Storage::wall_temp:
       return part(compiled.wall_temps, compiled.plan.wall_temps);
   }
   return {};
@@ -82,21 +82,22 @@ const int32_t* System::Sweep::index(Code code, Pass::Over over) const {
 
 Bound System::Sweep::bind(const Instruction& i, Pass::Over over) const {
   Bound b{.instruction = &i};
-  b.dst = i.dst.place == Place::column ? Address{Address::Base::memory, column_to_write(i.dst.index)} : address(i.dst);
+  b.dst =
+      i.dst.place == Storage::column ? Address{Address::Base::memory, column_to_write(i.dst.index)} : address(i.dst);
   b.a = address(i.a);
   b.b = address(i.b);
   b.c = address(i.c);
   for (const Operand& o : i.values) b.values.push_back(address(o));
   for (const Operand& o : i.sources) b.sources.push_back(address(o));
   if (i.code < Code::elementwise_count) {
-    const auto scalar = [](const Operand& o) { return o.place == Place::scalar || o.place == Place::nowhere; };
+    const auto scalar = [](const Operand& o) { return o.place == Storage::scalar || o.place == Storage::nowhere; };
     const int mask = (scalar(i.a) ? 1 : 0) | (scalar(i.b) ? 2 : 0) | (scalar(i.c) ? 4 : 0);
     b.kernel = system.kernels_.elementwise[static_cast<int>(i.code)][mask];
   }
   switch (i.code) {
     case Code::gather:
       for (size_t j = 0; j < i.difference.size(); ++j) b.difference |= (i.difference[j] ? 1u : 0u) << j;
-      if (i.weight >= 0) b.source = address({Place::edge_temp, i.weight});
+      if (i.weight >= 0) b.source = address({Storage::edge_temp, i.weight});
       break;
     case Code::fetch_own:
     case Code::fetch_across:

@@ -188,13 +188,13 @@ System::Values System::values(size_t k) const {
     return buffer.data() + buffer.size() / parts * o.index;
   };
   switch (o.place) {
-    case Place::scalar:
+    case Storage::scalar:
       return {Values::Per::all, values_.scalars.data() + o.index};
-    case Place::cell_temp:
+    case Storage::cell_temp:
       return {Values::Per::cell, part(values_.cell_temps, values_.plan.cell_temps)};
-    case Place::edge_temp:
+    case Storage::edge_temp:
       return {Values::Per::edge, part(values_.edge_temps, values_.plan.edge_temps)};
-    case Place::column: {
+    case Storage::column: {
       if (o.index < 0) return {Values::Per::cell, layout_->neighbour_count.data()};
       const int state = state_of_column_[o.index];
       if (state >= 0) return {Values::Per::cell, values_of_ + state_[state].offset};

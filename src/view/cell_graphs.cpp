@@ -119,7 +119,7 @@ void add_faces(const Tissue& tissue, const Cells& by_place, Scene& scene) {
       Index side = first;
       do {
         const Index other = tissue.neighbour(side);
-        const Place there = place_of(tissue, other == none ? cell : other);
+        const GridPlace there = place_of(tissue, other == none ? cell : other);
         if (there.row == place.first && there.column < place.second - 1) next_column = there.column;
         side = tissue.next(side);
       } while (side != first);
@@ -187,7 +187,7 @@ void add_surface(const Tissue& tissue, const Paint& paint, Scene& scene) {
   const ViewSettings& s = paint.settings;
   Cells by_place;
   for (Index c = 0; c < tissue.cells(); ++c) {
-    const Place place = place_of(tissue, c);
+    const GridPlace place = place_of(tissue, c);
     by_place[{place.row, place.column}] = c;
     scene.points.push_back(s.place[static_cast<size_t>(c)]);
     scene.point_colours.push_back(s.wireframe ? s.background : paint.of(c));

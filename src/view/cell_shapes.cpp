@@ -55,7 +55,7 @@ void add_bands(const Paint& paint, const Outlines& outlines, Scene& scene) {
 
 /// Which edge of a square (lower, right, upper, left: 0 to 3) faces another square. One far away is met around the
 /// back.
-uint32_t edge_towards(const Place& from, const Place& to) {
+uint32_t edge_towards(const GridPlace& from, const GridPlace& to) {
   double right = to.column - from.column, up = to.row - from.row;
   if (std::abs(right) > 1) right = -right;
   if (std::abs(up) > 1) up = -up;
@@ -93,7 +93,7 @@ Outlines polygon_outlines(const Tissue& tissue) {
   return with_diameter(std::move(o), area);
 }
 
-Place place_of(const Tissue& tissue, Index cell) {
+GridPlace place_of(const Tissue& tissue, Index cell) {
   const auto i = static_cast<size_t>(cell);
   return {tissue.find_column(Kind::cell, "row")->values[i], tissue.find_column(Kind::cell, "column")->values[i]};
 }
@@ -101,7 +101,7 @@ Place place_of(const Tissue& tissue, Index cell) {
 Outlines square_outlines(const Tissue& tissue) {
   Outlines o;
   for (Index c = 0; c < tissue.cells(); ++c) {
-    const Place place = place_of(tissue, c);
+    const GridPlace place = place_of(tissue, c);
     const auto base = static_cast<uint32_t>(o.points.size());
     o.first.push_back(base);
     for (const auto& [dx, dy] : {std::pair{-.5, -.5}, {.5, -.5}, {.5, .5}, {-.5, .5}}) {
@@ -124,9 +124,9 @@ Outlines square_outlines(const Tissue& tissue) {
     for (uint32_t k = 0; k < 4; ++k) {
       // Lines shared with the next column or row are drawn by that cell (its left or lower edge).
       const Index side = o.side_of[base + k];
-      const Place place = place_of(tissue, static_cast<Index>(c));
+      const GridPlace place = place_of(tissue, static_cast<Index>(c));
       const bool shared = side != none && (k == 1 || k == 2) && [&] {
-        const Place other = place_of(tissue, tissue.neighbour(side));
+        const GridPlace other = place_of(tissue, tissue.neighbour(side));
         return k == 1 ? other.column > place.column : other.row > place.row;
       }();
       if (!shared) o.walls.emplace_back(base + k, base + (k + 1) % 4);

@@ -49,10 +49,10 @@ void add_surface(const Tissue& tissue, const Paint& paint, Scene& scene);
 void add_marks(const Paint& paint, const std::vector<Vec3>& centres, double cell_pixels, Scene& scene);
 
 /// Row and column of a cell of a tissue without geometry.
-struct Place {
+struct GridPlace {
   double row, column;
-  bool operator==(const Place&) const = default;
+  bool operator==(const GridPlace&) const = default;
 };
-Place place_of(const Tissue& tissue, Index cell);
+GridPlace place_of(const Tissue& tissue, Index cell);
 
 }  // namespace tunica
