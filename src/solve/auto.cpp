@@ -18,12 +18,12 @@ namespace {
 /// Accepted steps of a trial: at least the first, and until they no longer grow, but at most the second.
 constexpr int least_steps = 3, trial_steps = 14;
 constexpr uint64_t trial_evaluations = 400;  ///< and no more than so many evaluations
-/// Work between choices, in trials: at first, and after many that changed nothing.
-constexpr double least_patience = 4, most_patience = 40;
-/// Evaluations before the next choice: soon after the first, since a transient tells little of what comes; later where
-/// the cost seems to have changed, since after a restart it always does.
+/// Work between choices, in trials: after the first, since a transient tells little of what comes; after another method
+/// was chosen; and after many choices that changed nothing.
+constexpr double first_patience = 2, least_patience = 4, most_patience = 40;
+/// Evaluations before the next choice; more where the cost seems to have changed, since after a restart it always does.
 constexpr double least_wait = 50, wait_if_changed = 200;
-constexpr double usual_look = 25;  ///< evaluations that a look at rkc2 alone costs
+constexpr double usual_look = 50;  ///< evaluations, at most, that a look at rkc2 alone should cost
 /// Methods whose steps are as long as they are stable must beat rkc2 by so much: its steps can grow when the state
 /// grows smooth, theirs cannot.
 constexpr double advantage = 1.6;
@@ -181,8 +181,8 @@ class Auto : public Stepper {
     expected_ = recent_ = std::isfinite(trials[best].cost) && !stiff ? trials[best].cost : 0;
     explain(trials, best, stiff, rho);
     since_ = 0;
+    patience_ = !compared_ ? first_patience : best == which_ ? std::min(2 * patience_, most_patience) : least_patience;
     compared_ = true;
-    patience_ = best == which_ ? std::min(2 * patience_, most_patience) : least_patience;
     if (best == which_) return;
     choose(best);
     current_->restart(system, t, y);
