@@ -11,6 +11,8 @@ local course = require "tunica.course"
 local op, fail = registry.op, registry.fail
 local values_of = course.values_of
 
+local endless = 1e300  -- a time that no run reaches
+
 local inside = setmetatable({}, { __mode = "k" })
 local methods = {}
 
@@ -19,7 +21,8 @@ registry.type("phyllotaxis", "a model of phyllotaxis", is_phyllotaxis, methods)
 
 -- The model ---------------------------------------------------------------------------------------------------------------
 
-local public = { params = true, name = true, views = true, reports = true, report_every = true, failure = true, stop = true, apex = true }
+local public = { params = true, name = true, views = true, reports = true, report_every = true, failure = true, stop = true, most = true,
+  apex = true }
 local prepare
 
 local computed = {
@@ -29,6 +32,7 @@ local computed = {
   about = function(_, model) return methods.describe(model) end,
   cost = function(_, model) return methods.cost_of(model) end,
   finished = function(my) return my.most ~= nil and core.inhibition_state(my.engine).count >= my.most end,
+  tables = function(_, model) return { primordia = methods.table_of(model) } end,
   angles = function(my)
     prepare(my)
     local list = {}
@@ -77,9 +81,14 @@ local function check_options(name, given, known)
   end
 end
 
---- The ring and what moves away from it: radius, height, track, displaced.
+--- The ring and what moves away from it: { apex, arc, radius } or { radius, height, track }.
 local function ring_of(o)
   if (o.apex == nil) == (o.path == nil) then fail "tunica.phyllotaxis: give either 'apex' and 'radius', or 'path'" end
+  if o.apex then
+    if (o.radius == nil) == (o.arc == nil) then fail "tunica.phyllotaxis: say where the ring is on the apex, by 'radius' or by 'arc'" end
+    return { apex = o.apex, arc = o.arc or o.apex:arc_at_radius(o.radius) }
+  end
+  if o.arc then fail "tunica.phyllotaxis: 'arc' is a place on an apex; a path starts on the ring" end
   local x, y = core.call_rule(o.path, 0)
   if type(x) ~= "number" or type(y) ~= "number" then
     fail("tunica.phyllotaxis: 'path' must be a function(age) that returns x, y; at age 0 it returned %s, %s", core.describe(x), core.describe(y))
@@ -100,8 +109,9 @@ op { name = "tunica.phyllotaxis", kind = "named", returns = "a model of phyllota
   doc = "A model of phyllotaxis by inhibition: a ring on a growing apex on which primordia are born. To be given model:inhibition, a start (model:initial, model:primordium), events, views and a report.",
   args = {
     { name = "path", type = "function", doc = "function(age) that returns x, y: distance from the axis and height of what was on the ring so long ago; instead of an apex" },
-    { name = "apex", type = "any", doc = "the growing surface (tunica.apex)" },
+    { name = "apex", type = "apex", doc = "the growing surface (tunica.apex)" },
     { name = "radius", type = "number", above = 0, unit = "length", doc = "of the ring on the apex" },
+    { name = "arc", type = "number", min = 0, max = 1e12, unit = "length", doc = "arc length from the tip to the ring, instead of its radius" },
     { name = "samples", type = "integer", min = 3, max = 100000, default = 360, doc = "places on the ring where fields are evaluated" },
     { name = "jugacy", type = "integer", min = 1, max = 1000, default = 1, doc = "so many primordia at once, evenly spaced; must divide samples. Not 1: imposed, thresholds then are compared with the mean over the places" },
     { name = "params", type = "any", doc = "the table that tunica.params gave" },
@@ -127,13 +137,14 @@ op { name = "tunica.phyllotaxis", kind = "named", returns = "a model of phyllota
     end
     if not o.located and not o.dt then fail "tunica.phyllotaxis: 'dt' is missing: with located = false steps have a fixed length" end
     local ring, jitter = ring_of(o), o.jitter or {}
-    local engine = core.inhibition { radius = ring.radius, height = ring.height, track = ring.track, displaced = ring.displaced,
-      samples = o.samples, jugacy = o.jugacy, tie = o.tie, tolerance = o.tolerance, dt = o.dt or 0, located = o.located, drop = o.drop,
+    local engine
+    engine, ring.radius, ring.height = core.inhibition { apex = ring.apex, arc = ring.arc, radius = ring.radius, height = ring.height,
+      track = ring.track, samples = o.samples, jugacy = o.jugacy, tie = o.tie, tolerance = o.tolerance, dt = o.dt or 0, located = o.located, drop = o.drop,
       most = o.most, jitter_angle = math.rad(jitter.angle or 0), jitter_along = jitter.along or 0 }
     local stop = type(o.stop) == "table" and o.stop or { time = o.stop }
     local model = setmetatable({}, meta)
     inside[model] = { engine = engine, ring = ring, apex = o.apex, params = o.params or params.current(), jugacy = o.jugacy, samples = o.samples,
-      stop = o.stop and (stop.time or math.huge), most = stop.primordia, rules = {}, starts = {}, events = {}, conditions = {}, views = {},
+      stop = o.stop and (stop.time or endless), most = stop.primordia, rules = {}, starts = {}, events = {}, conditions = {}, views = {},
       reports = {}, warnings = {}, seconds = 0, tolerance = o.tolerance, tie = o.tie, drop = o.drop, located = o.located }
     return model
   end }
@@ -267,260 +278,9 @@ op { name = "phyllotaxis:primordium", changes = true, kind = "named",
     if my.started then start() else my.starts[#my.starts + 1] = start end
   end }
 
--- Events ------------------------------------------------------------------------------------------------------------------------
+-- The rest of it ------------------------------------------------------------------------------------------------------------------
 
-course.operations("phyllotaxis", inside, example, {
-  doc = "It is asked at the start, after events and insertions, and between insertions, where the time is found at which it became true.",
-  located = "false: it is asked only after insertions and search intervals, and its time is not found",
-  example = "model:when(function(t) return #model.angles > 5 end, function(t) print(t) end)",
-  report = "primordia = function() return #model.angles end" })
-
-op { name = "phyllotaxis:after", changes = true,
-  args = { { name = "count", type = "integer", min = 1, required = true, doc = "number of the primordium; those of the start count" },
-    { name = "event", type = "function", required = true, doc = "function(t)" } },
-  doc = "Something that happens once, when the model has so many primordia: a threshold is changed, say.",
-  example = example .. "model:after(4, function(t) print(t) end) model:advance(1)",
-  fn = function(model, count, fn) table.insert(inside[model].events, { kind = "after", time = count, fn = fn, fired = 0 }) end }
-
-local function nothing() end
-
-local function fire_counts(my, now)
-  local fired = false
-  for _, e in ipairs(my.events) do
-    if e.kind == "after" and e.fired == 0 and core.inhibition_state(my.engine).count >= e.time then
-      e.fn(now)
-      e.fired, fired = 1, true
-    end
-  end
-  return fired
-end
-
-local function test_conditions(my, now)
-  for _, c in ipairs(my.conditions) do
-    local holds = c.test(now) and true or false
-    local becomes = holds and not c.holds
-    c.holds = holds
-    if becomes then c.fn(now) end
-  end
-end
-
-local function any_becomes(my, time)
-  for _, c in ipairs(my.conditions) do
-    if c.located and not c.holds and c.test(time) then return true end
-  end
-  return false
-end
-
---- The earliest time from `low` to `high`, between which nothing is inserted, at which a condition becomes true; nil if none does.
-local function locate(my, low, high)
-  local function holds_at(time)
-    core.inhibition_show(my.engine, time)
-    return any_becomes(my, time)
-  end
-  local near = 1e-9 * (high - low)
-  local found
-  local went, message = pcall(function()
-    if not holds_at(high) then return end
-    local first, last = low, high
-    while last - first > near do
-      local middle = first + (last - first) / 2
-      if middle <= first or middle >= last then break end
-      if holds_at(middle) then last = middle else first = middle end
-    end
-    found = last
-  end)
-  core.inhibition_show(my.engine, low)
-  if not went then error(message, 0) end
-  return found
-end
-
--- Running -----------------------------------------------------------------------------------------------------------------------
-
---- Nothing has come for so long that nothing will: an error for a run that ends with a number of primordia.
-local function check_patience(my, s)
-  local scale = math.max(s.plastochron, 100 * s.time_scale)
-  local since = math.max(s.last_birth, 0)
-  if my.most and s.count > 0 and s.time - since > 1e4 * scale then
-    local angle, value = core.inhibition_minimum(my.engine)
-    fail("no place on the ring has been below the threshold since t = %.6g (now t = %.6g): the lowest field of the first inhibition is %.6g, at %.4g degrees; the run was to end with %d primordia and has %d",
-      since, s.time, value, math.deg(angle), my.most, s.count)
-  end
-end
-
---- Up to the next thing of interest. Returns a status that ends the run, or nil.
-local function go_on(my, target)
-  local before = core.inhibition_state(my.engine).time
-  if #my.conditions > 0 then
-    local known = core.inhibition_known(my.engine)
-    if not known then return "interrupted" end
-    local high = math.min(known, target)
-    local found = high > before and locate(my, before, high)
-    if found then
-      core.inhibition_show(my.engine, found)
-      test_conditions(my, found)
-      return
-    end
-  end
-  local status = core.inhibition_advance(my.engine, target)
-  if status == "interrupted" then return status end
-  local s = core.inhibition_state(my.engine)
-  if status == "inserted" then fire_counts(my, s.time) end
-  if status == "clear" then check_patience(my, s) end
-  prepare(my)
-  if #my.conditions > 0 then test_conditions(my, s.time) end
-end
-
-local function advance(model, o)
-  local my = inside[model]
-  prepare(my)
-  my.failure = nil
-  local deadline = o.seconds and core.now() + o.seconds
-  local first, stepped = true, false
-  while true do
-    local now = model.time
-    local fired = course.fire(my, now, 0, nothing)
-    fired = fire_counts(my, now) or fired
-    if fired or first then
-      prepare(my)
-      test_conditions(my, now)
-      prepare(my)
-    end
-    first = false
-    if now >= o.to or model.finished then return "done" end
-    if o.pause and stepped and now >= o.pause then return "paused" end
-    if core.cancelled() then return "interrupted" end
-    local target = course.next_event(my, o.to)
-    if o.pause and o.pause > now then target = math.min(target, o.pause) end
-    local status = go_on(my, math.max(target, now))
-    stepped = true
-    if status then return status end
-    prepare(my)
-    if deadline and core.now() >= deadline and model.time < o.to then return "out of time" end
-  end
-end
-
-op { name = "phyllotaxis:advance", kind = "named", returns = "'done', 'paused', 'out of time' or 'interrupted'",
-  doc = "Runs the model to a time, or to the number of primordia at which it stops, events included. How often it pauses changes no primordium.",
-  args = { { name = "to", type = "number", position = 1, unit = "time", doc = "until when; may be left out if the model stops with a number of primordia" },
-    { name = "pause", type = "number", infinite = true, unit = "time", doc = "stop then" },
-    { name = "seconds", type = "number", min = 0, unit = "s", doc = "stop after so much time on the clock" } },
-  example = example .. "model:advance { to = 1 } print(model.time)",
-  fn = function(model, o)
-    local my = inside[model]
-    if my.advancing then fail "phyllotaxis:advance cannot be called while the model runs, in an event or a condition" end
-    o.to = o.to or my.most and 1e300
-    if not o.to then fail "phyllotaxis:advance: 'to' is missing: until when? (Or stop = { primordia = n } in tunica.phyllotaxis)" end
-    my.advancing = true
-    local begun = core.now()
-    local ok, status = pcall(advance, model, o)
-    my.seconds = my.seconds + core.now() - begun
-    my.advancing = false
-    if not ok then error(status, 0) end
-    if core.inhibition_state(my.engine).overflowed then
-      warn(my, "old primordia were left out because there were too many (most), though their inhibition still counts")
-    end
-    return status
-  end }
-
--- What there is -------------------------------------------------------------------------------------------------------------------
-
---- In (-180, 180].
-local function turn(from, to)
-  local angle = to - from
-  return angle - 360 * math.ceil((angle - 180) / 360)
-end
-
-op { name = "phyllotaxis:primordia", returns = "a list of { number, angle, time, age, x, y, z, radius, divergence, jugacy, initial }",
-  doc = "All primordia, the oldest first: angle and divergence (from the one before, -180 to 180) in degrees, time of birth, age, place in space, distance from the axis (radius).",
-  example = example .. "model:advance(1) for _, p in ipairs(model:primordia()) do print(p.number, p.angle, p.age) end",
-  fn = function(model)
-    local my = inside[model]
-    prepare(my)
-    local now, before = model.time, nil
-    local list = core.inhibition_primordia(my.engine, 1)
-    for i, p in ipairs(list) do
-      local theta = p.angle
-      p.number, p.time, p.age, p.jugacy = i, p.birth, math.max(0, now - p.birth), my.jugacy
-      p.angle, p.radius = math.deg(theta), p.x
-      p.x, p.z = p.radius * math.cos(theta), p.radius * math.sin(theta)
-      p.divergence, p.birth = before and turn(before, p.angle) or nil, nil
-      before = p.angle
-    end
-    return list
-  end }
-
-op { name = "phyllotaxis:field", returns = "a number",
-  doc = "The field of an inhibitor now, at a place on the ring or elsewhere.",
-  args = { { name = "theta", type = "number", required = true, unit = "degrees", doc = "angle of the place" },
-    { name = "x", type = "number", min = 0, unit = "length", doc = "its distance from the axis; that of the ring if not given" },
-    { name = "y", type = "number", unit = "length", doc = "its height; that of the ring if not given" },
-    { name = "which", type = "integer", min = 1, max = 8, default = 1, doc = "number of the inhibitor" } },
-  example = example .. "model:primordium { angle = 0 } print(model:field(180))",
-  fn = function(model, theta, x, y, which)
-    local my = inside[model]
-    prepare(my)
-    if which > #my.rules then fail("phyllotaxis:field: there are %d inhibitors, came number %d", #my.rules, which) end
-    return core.inhibition_value(my.engine, which, math.rad(theta), x or my.ring.radius, y or my.ring.height)
-  end }
-
-op { name = "phyllotaxis:minimum", returns = "the angle (degrees), the field there, and whether it is below every threshold",
-  doc = "The place on the ring where the field of the first inhibitor is lowest now, among the candidates if there are any.",
-  example = example .. "model:advance(1) print(model:minimum())",
-  fn = function(model)
-    local my = inside[model]
-    prepare(my)
-    local angle, value, candidate = core.inhibition_minimum(my.engine)
-    return math.deg(angle), value, candidate
-  end }
-
--- What changes, as bytes -------------------------------------------------------------------------------------------------------
-
-op { name = "phyllotaxis:snapshot", returns = "text", example = example .. "print(#model:snapshot())",
-  doc = "Everything that changes during a run: primordia, time, events, parameters, and the plain values that functions of the model keep.",
-  fn = function(model)
-    local my = inside[model]
-    prepare(my)
-    return core.pack { inhibition = core.inhibition_save(my.engine), random = core.random_state(), script = course.save(my) }
-  end }
-
-op { name = "phyllotaxis:restore", changes = true, args = { { name = "snapshot", type = "string", required = true, doc = "what model:snapshot() gave" } },
-  doc = "Goes back to a snapshot of the same script.", example = example .. "local s = model:snapshot() model:advance(1) model:restore(s) print(model.time)",
-  fn = function(model, bytes)
-    local my = inside[model]
-    local parts = core.unpack(bytes)
-    if not (parts.inhibition and parts.script and parts.random) then fail "this is no snapshot of a model of phyllotaxis" end
-    prepare(my)
-    course.check(my, parts.script)
-    core.random_state(parts.random)
-    course.restore(my, parts.script)
-    prepare(my)  -- may bind the fields anew
-    core.inhibition_load(my.engine, parts.inhibition)
-  end }
-
--- For the record ------------------------------------------------------------------------------------------------------------------
-
---- What the model has cost since it was made.
-function methods.cost_of(model)
-  local my = inside[model]
-  local s = core.inhibition_state(my.engine)
-  return { seconds = my.seconds, steps = s.steps, evaluations = s.evaluations, pairs = s.pairs }
-end
-
---- For run.json: how it is solved, rules, warnings, cost.
-function methods.describe(model)
-  local my = inside[model]
-  prepare(my)
-  local listed = {}
-  for i, r in ipairs(my.rules) do
-    listed[i] = { rule = r.what, where = r.where, traced = not r.direct, reason = r.direct or nil }
-  end
-  local counts = methods.cost_of(model)
-  local seconds = counts.seconds
-  counts.seconds = nil
-  return { method = "inhibition", title = my.located and "insertions located in time" or "insertions at the ends of fixed steps",
-    samples = my.samples, jugacy = my.jugacy, tolerance = my.tolerance, tie = my.tie, drop = my.drop, spacing = my.spacing, rules = listed,
-    warnings = my.warnings, counts = counts,
-    cost = { seconds = seconds, ns_per_pair = counts.pairs > 0 and seconds / counts.pairs * 1e9 or nil } }
-end
+local parts = { inside = inside, methods = methods, prepare = prepare, example = example, warn = warn, endless = endless }
+for _, part in ipairs { "running", "looking" } do require("tunica.phyllotaxis." .. part)(parts) end
 
 return { is_phyllotaxis = is_phyllotaxis, inside = inside }

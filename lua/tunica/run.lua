@@ -132,7 +132,8 @@ local function add_frames(self)
 end
 
 local function add_row(self)
-  self.series:add(self.model.time, self.model.tissue:count(), outputs.reports(self.model))
+  local size, unit = outputs.size(self.model)
+  self.series:add(self.model.time, size, unit, outputs.reports(self.model))
 end
 
 local function series_header(self)
@@ -217,6 +218,7 @@ function run.begin(model, options)
   if options.frames == nil then options.frames = true end
   if not recorded then self.git = git.revision(options.script) end
   self.goal = options.until_time or optional(model, "stop")
+  self.most = optional(model, "most")  -- so many primordia end the run, if it has not reached its goal before
   if type(self.goal) ~= "number" then
     return refuse(self, exit.usage, "when does the run end? Say --until T, or stop = T in tunica.model { ... }")
   end
@@ -240,7 +242,7 @@ function run.begin(model, options)
     return refuse(self, exit.files, "no checkpoint in '%s' can be read; tunica rerun %s repeats the run from the start",
       self.folder, self.folder)
   end
-  self.progress = progress.new(self.goal, options.terminal, options.quiet)
+  self.progress = progress.new(self.goal, self.most, options.terminal, options.quiet)
   self.next_checkpoint = core.now() + options.checkpoint
   return self, exit.ok
 end
@@ -255,15 +257,15 @@ function run.loop(self)
     outputs.emit(self.outputs, model.time)
     if self.series then with_files(self, self.series.flush, self.series, false) end
     shadow(self)
-    if model.time >= self.goal then return "done" end
+    if model.time >= self.goal or self.most and model.finished then return "done" end
     local steps = model.steps
     self.advancing = true
     local status = model:advance { to = self.goal, pause = outputs.next_time(self.outputs), seconds = slice }
     self.advancing = false
-    local cells = model.tissue:count()
-    self.work = self.work + (model.steps - steps) * cells
+    local size, unit = outputs.size(model)
+    self.work = self.work + (model.steps - steps) * size
     if status == "interrupted" then return status end
-    progress.update(self.progress, model.time, cells, self.work)
+    progress.update(self.progress, model.time, size, unit, self.work)
   end
 end
 
@@ -301,8 +303,16 @@ local function finish(self)
   final_pictures(self)
   local report = outputs.reports(model)
   self.report = report
-  self.result = { time = model.time, steps = model.steps, cells = model.tissue:count(), hash = model:hash(), report = {} }
+  local size, unit = outputs.size(model)
+  self.result = { time = model.time, steps = model.steps, [unit] = size, hash = model:hash(), report = {} }
   for _, entry in ipairs(report) do self.result.report[entry.name] = entry.value end
+end
+
+--- Tables that a model keeps (primordia.csv), as they are now.
+local function write_tables(self)
+  for name, text in pairs(optional(self.model, "tables") or {}) do
+    with_files(self, core.write_atomic, self.folder .. "/" .. name .. ".csv", series_header(self) .. "\n" .. text)
+  end
 end
 
 --- After an interruption or an error: writes what is whole, and says where. Returns where the checkpoint is, or nil.
@@ -315,6 +325,7 @@ local function keep(self)
   state = state or self.shadow
   if not state then return nil end
   if self.series then pcall(self.series.flush, self.series, true) end
+  if not self.advancing then pcall(write_tables, self) end
   local ok, path = pcall(write_checkpoint, self, state)
   if ok then return path, state.about.time end
   complain(self, "the checkpoint could not be written: %s", tostring(path))

@@ -78,7 +78,12 @@ void Inhibition::add_field(InhibitionField field) {
   changed();
 }
 
-Vec2 Inhibition::place(const Primordium& p) const { return settings_.track(std::max(0.0, time_ - p.birth)); }
+/// Places are kept where squares do not overflow.
+Vec2 Inhibition::track(double age) const {
+  constexpr double far = 1e100;
+  const Vec2 place = settings_.track(std::max(0.0, age));
+  return {std::min(std::fabs(place.x()), far), std::clamp(place.y(), -far, far)};
+}
 
 double Inhibition::threshold(size_t k, double t) const {
   const double value = fields_[k].threshold(t);
@@ -91,10 +96,9 @@ double Inhibition::threshold(size_t k, double t) const {
 
 void Inhibition::add_source(const Primordium& p, double t) {
   const double age = std::max(0.0, t - p.birth);
-  constexpr double far = 1e100;  // beyond this squares would overflow
-  const Vec2 place = settings_.track(age);
-  const Source source{std::sin(p.angle / 2), std::cos(p.angle / 2), std::min(std::fabs(place.x()), far),
-                      std::clamp(place.y(), -far, far), 1e-14 * settings_.ring.x() * settings_.ring.x()};
+  const Vec2 place = track(age);
+  const Source source{std::sin(p.angle / 2), std::cos(p.angle / 2), place.x(), place.y(),
+                      1e-14 * settings_.ring.x() * settings_.ring.x()};
   const RingView ring{sine_.data(), cosine_.data(), radius_.data(), height_.data(), static_cast<int>(sine_.size())};
   pair_count_ += fields_.size() * sine_.size();
   double weight[2];
@@ -114,7 +118,7 @@ void Inhibition::blame(size_t k, double t) {
     const double age = std::max(0.0, t - primordia_[i].birth);
     for (int s = 0; s < settings_.samples; ++s) {
       const auto at = static_cast<size_t>(s);
-      const Vec2 place = settings_.track(age);
+      const Vec2 place = track(age);
       const double u = std::sin((angle_[at] - primordia_[i].angle) / 2), x = place.x(), r = radius_.data()[at];
       const double dy = place.y() - height_.data()[at];
       const double d = std::sqrt(

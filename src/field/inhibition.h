@@ -97,7 +97,7 @@ class Inhibition {
   double last_birth() const { return primordia_.empty() ? -1e300 : primordia_.back().birth; }
   /// Whether old primordia were left out only because there were too many.
   bool overflowed() const { return overflowed_; }
-  Vec2 place(const Primordium& p) const;
+  Vec2 place(const Primordium& p) const { return track(time_ - p.birth); }
 
   /// Field k now at a place (angle, distance from the axis, height).
   double value(size_t k, double angle, const Vec2& place);
@@ -120,6 +120,7 @@ class Inhibition {
     double end;
     bool insertion;
   };
+  Vec2 track(double age) const;
   void place_samples();
   void evaluate(double t);
   void add_source(const Primordium& p, double t);

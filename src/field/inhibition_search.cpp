@@ -32,7 +32,6 @@ Inhibition::Ahead Inhibition::look_ahead() {
   if (now < 0) return {from_, true};
   const double end = from_ + next_step();
   if (!(end > from_)) fail("insertions follow each other too fast at t = {:.6g}: the threshold is too high", from_);
-  ++steps_;
   const double then = excess(end);
   if (!(then < 0)) return {end, false};
   return {settings_.located ? locate(from_, now, end, then) : end, true};
@@ -96,6 +95,7 @@ Inhibition::Status Inhibition::advance(double to) {
   }
   const Ahead found = *ahead_;
   if (found.insertion) insert(found.end);
+  if (found.end > from_) ++steps_;
   time_ = from_ = found.end;
   ahead_.reset();
   return found.insertion ? Status::inserted : Status::clear;
@@ -117,8 +117,8 @@ double Inhibition::largest_share(size_t k, double age, double t) {
   constexpr int steps = 4;
   double most = 0;
   for (const double factor : later) {
-    const Vec2 p = settings_.track(factor * age);
-    const double x = std::min(std::fabs(p.x()), 1e100), y = std::clamp(p.y(), -1e100, 1e100) - settings_.ring.y();
+    const Vec2 p = track(factor * age);
+    const double x = p.x(), y = p.y() - settings_.ring.y();
     const double nearest = std::hypot(x - settings_.ring.x(), y), farthest = std::hypot(x + settings_.ring.x(), y);
     for (int i = 0; i <= steps; ++i) {
       const double d = std::max(nearest + (farthest - nearest) * i / steps, 1e-7 * settings_.ring.x());

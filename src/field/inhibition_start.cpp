@@ -25,8 +25,7 @@ double Inhibition::lattice_sum(int whorls, double angle, int jugacy, double plas
   const double radius = settings_.ring.x();
   for (int k = 1; k <= whorls; ++k) {
     const double age = k * plastochron;
-    Vec2 p = settings_.track(age);
-    p = {std::min(std::fabs(p.x()), 1e100), std::clamp(p.y(), -1e100, 1e100)};
+    const Vec2 p = track(age);
     for (int m = 0; m < jugacy; ++m) {
       const double u = std::sin((k * angle + two_pi * m / jugacy) / 2);
       const double d2 = (p - settings_.ring).squaredNorm() + 4 * p.x() * radius * u * u;

@@ -4,6 +4,7 @@
 
 #include "field/inhibition.h"
 #include "lua/bind_model.h"
+#include "lua/bind_shape.h"
 #include "lua/guard.h"
 
 namespace tunica::lua {
@@ -98,17 +99,40 @@ std::optional<Callback> function_field(lua_State* L, const char* name) {
   return f;
 }
 
-/// inhibition { radius, height, track = function(age) -> x, y, displaced = function(along) -> x, y, samples, ... }
+/// The ring at an arc length of an apex, and the way of what starts there.
+void ring_on_apex(InhibitionSettings& s, const Apex& apex, double arc) {
+  constexpr double passages = 40;  // the way is tabulated until the ring's speed would have led so many radii away
+  s.ring = apex.profile().at(arc);
+  const double speed = apex.speed(arc);
+  if (!(speed > 0))
+    fail("what is on the ring (arc {:.6g}) does not move away from the tip: the growth up to there is {:.6g}", arc,
+         speed);
+  s.track = [path = apex.path(arc, passages * s.ring.x() / speed)](double age) -> Vec2 {
+    try {
+      return path.at(age);
+    } catch (const Error&) {
+      return {1e100, 0};  // so old that its place is beyond all numbers
+    }
+  };
+  s.displaced = [apex, arc](double along) { return apex.profile().at(std::max(0.0, arc + along)); };
+}
+
+/// inhibition { apex, arc | radius, height, track = function(age) -> x, y; samples, ... } -> object, radius, height
 int inhibition(lua_State* L) {
   return guard(L, [&] {
     check_table(L, 1, "the settings");
     const Entering entering(L);
     InhibitionSettings s;
-    s.ring = {number_field(L, "radius"), number_field(L, "height")};
-    const auto track = function_field(L, "track"), displaced = function_field(L, "displaced");
-    if (!track) fail("the path must be a function(age) that returns x, y");
-    s.track = [f = *track](double age) { return f.point("the path", age); };
-    if (displaced) s.displaced = [f = *displaced](double along) { return f.point("the place on the profile", along); };
+    lua_getfield(L, 1, "apex");
+    if (!lua_isnil(L, -1)) {
+      ring_on_apex(s, apex_at(L, -1), number_field(L, "arc"));
+    } else {
+      const auto track = function_field(L, "track");
+      if (!track) fail("the path must be a function(age) that returns x, y");
+      s.ring = {number_field(L, "radius"), number_field(L, "height")};
+      s.track = [f = *track](double age) { return f.point("the path", age); };
+    }
+    lua_pop(L, 1);
     s.samples = static_cast<int>(number_field(L, "samples"));
     s.jugacy = static_cast<int>(number_field(L, "jugacy"));
     s.tie = number_field(L, "tie");
@@ -121,13 +145,16 @@ int inhibition(lua_State* L) {
     s.most_active = static_cast<int>(number_field(L, "most"));
     s.jitter_angle = number_field(L, "jitter_angle");
     s.jitter_along = number_field(L, "jitter_along");
-    if (s.jitter_along > 0 && !displaced) fail("jitter along the profile needs the profile of an apex");
+    if (s.jitter_along > 0 && !s.displaced) fail("jitter along the profile needs the profile of an apex");
     s.seed = host(L).seed;
     s.cancel = &host(L).cancel;
     auto object = std::make_unique<Phyllotaxis>();
+    const Vec2 ring = s.ring;
     object->engine = std::make_unique<Inhibition>(std::move(s));
     push_object(L, std::move(object));
-    return 1;
+    lua_pushnumber(L, ring.x());
+    lua_pushnumber(L, ring.y());
+    return 3;
   });
 }
 

@@ -68,6 +68,13 @@ function outputs.reports(model)
   return list
 end
 
+--- How large the model is, and what that counts: cells, or primordia.
+function outputs.size(model)
+  local ok, tissue = pcall(function() return model.tissue end)
+  if ok and tissue then return tissue:count(), "cells" end
+  return model.count, "primordia"
+end
+
 --- Whether one of the reports has this name.
 function outputs.has(reports, name)
   for _, report in ipairs(reports) do
@@ -102,12 +109,12 @@ end
 local Series = {}
 Series.__index = Series
 
---- Rows of time, cells and every report, in memory and, now and then, in <folder>/series.csv.
+--- Rows of time, size and every report, in memory and, now and then, in <folder>/series.csv.
 function outputs.series(folder, header) return setmetatable({ folder = folder, lines = { header } }, Series) end
 
 --- Adds a row; the first one settles the columns.
-function Series:add(time, cells, reports)
-  local values, names = { cells = cells }, outputs.has(reports, "cells") and {} or { "cells" }
+function Series:add(time, size, unit, reports)
+  local values, names = { [unit] = size }, outputs.has(reports, unit) and {} or { unit }
   for _, report in ipairs(reports) do
     for _, pair in ipairs(outputs.flatten(report.name, report.value, {})) do
       names[#names + 1], values[pair[1]] = pair[1], pair[2]

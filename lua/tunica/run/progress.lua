@@ -20,30 +20,37 @@ local function short(number)
   return string.format("%.0f", number)
 end
 
---- `goal`: end of model time. Rates are of the last seconds, not since the start: tissues grow.
-function progress.new(goal, terminal, quiet)
+--- `goal`: end of model time; `most`: the size at which the run ends, if it has one. Rates are of the last seconds, not since the start: tissues grow.
+function progress.new(goal, most, terminal, quiet)
   local now = core.now()
-  return { goal = goal, terminal = terminal, quiet = quiet, shown = now, since = { now, nil, 0 }, tenth = nil }
+  return { goal = goal, most = most, terminal = terminal, quiet = quiet, shown = now, since = { now, nil, 0 }, tenth = nil }
 end
 
-local function line(self, time, cells, now)
+--- The part of the way that is done, by time or by size.
+local function share(self, time, size)
+  local by_time = self.goal > 0 and time / self.goal or 1
+  return self.most and math.max(by_time, size / self.most) or by_time
+end
+
+local function line(self, time, size, unit, now)
   local wall, advanced = now - self.since[1], time - self.since[2]
   local work = self.work - self.since[3]
-  local done = self.goal > 0 and time / self.goal or 1
-  local text = string.format("t = %.6g of %.6g (%d %%), %d cells", time, self.goal, math.floor(100 * done), cells)
-  if wall > 0 and advanced > 0 then
+  local done = math.floor(100 * share(self, time, size))
+  if self.most then return string.format("t = %.6g, %d of %d %s (%d %%)", time, size, self.most, unit, done) end
+  local text = string.format("t = %.6g of %.6g (%d %%), %d %s", time, self.goal, done, size, unit)
+  if wall > 0 and advanced > 0 and unit == "cells" then
     text = text .. string.format(", %s cell steps/s, %s to go", short(work / wall), clock((self.goal - time) / advanced * wall))
   end
   return text
 end
 
 --- Called often; shows something now and then. `work`: cell steps done so far.
-function progress.update(self, time, cells, work)
+function progress.update(self, time, size, unit, work)
   if self.quiet then return end
   self.work = work
   local now = core.now()
   self.since[2] = self.since[2] or time
-  local tenth = math.floor(self.goal > 0 and 10 * time / self.goal or 10)
+  local tenth = math.floor(10 * share(self, time, size))
   self.tenth = self.tenth or tenth
   local due
   if self.terminal then
@@ -52,7 +59,7 @@ function progress.update(self, time, cells, work)
     due = now - self.shown >= 30 or (tenth > self.tenth and now - self.shown >= 1)
   end
   if not due then return end
-  io.stderr:write(self.terminal and "\r\27[K" or "", line(self, time, cells, now), self.terminal and "" or "\n")
+  io.stderr:write(self.terminal and "\r\27[K" or "", line(self, time, size, unit, now), self.terminal and "" or "\n")
   io.stderr:flush()
   self.shown, self.tenth, self.drawn = now, tenth, true
   if now - self.since[1] > 5 then self.since = { now, time, work } end

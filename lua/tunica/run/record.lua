@@ -27,7 +27,7 @@ function record.of(self)
     name = self.name, status = self.status, script = self.script, git = self.git, arguments = core.as_list(options.arguments),
     code = core.as_list(options.code),
     parameters = parameters_of(model), seed = core.seed(), versions = core.decode(options.versions), method = about,
-    options = { until_time = self.goal, frames = options.frames, movie = options.movie }, warnings = warnings,
+    options = { until_time = not self.most and self.goal or self.options.until_time, frames = options.frames, movie = options.movie }, warnings = warnings,
     failures = self.failures, result = self.result,
     timing = { started = self.date, ended = self.ended, wall_seconds = self.wall_total, resumed = self.resumed, kernel = cost,
       nanoseconds_per_cell_step = self.wall_total and self.work > 0 and 1e9 * self.wall_total / self.work or nil },
@@ -45,7 +45,8 @@ local function print_text(self)
   add("status", self.status)
   add("time", model.time)
   add("steps", model.steps)
-  if not outputs.has(self.report or {}, "cells") then add("cells", model.tissue:count()) end
+  local size, unit = outputs.size(model)
+  if not outputs.has(self.report or {}, unit) then add(unit, size) end
   for _, entry in ipairs(self.report or {}) do
     for _, pair in ipairs(outputs.flatten(entry.name, entry.value, {})) do add(pair[1], pair[2]) end
   end
