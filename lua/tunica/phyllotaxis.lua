@@ -69,15 +69,19 @@ function meta.__tostring(model)
   return string.format("phyllotaxis %s: %d primordia, %d inhibitions, time %.6g", my.name or "", s.count, #my.rules, s.time)
 end
 
-local function check_options(name, given, known)
+--- Options within an option: each a number, 0 or more.
+local function check_options(name, given, names)
   for key, value in pairs(given or {}) do
-    if not known[key] then
-      local names = {}
-      for option in pairs(known) do names[#names + 1] = option end
-      fail("%s: there is no option %s%s", name, core.describe(key), type(key) == "string" and core.did_you_mean(key, names) or "")
+    local known = false
+    for _, option in ipairs(names) do known = known or option == key end
+    if not known then
+      local hint = type(key) == "string" and core.did_you_mean(key, names) or ""
+      if hint == "" then hint = "; the options are: " .. table.concat(names, ", ") end
+      fail("%s: there is no option %s%s", name, (core.describe(key):gsub("^the text ", "")), hint)
     end
-    local ok = type(value) == "number" and value >= 0 and value < math.huge
-    if not ok then fail("%s: '%s' must be a number 0 or more, came %s", name, key, core.describe(value)) end
+    if not (type(value) == "number" and value >= 0 and value < math.huge) then
+      fail("%s: '%s' must be a number 0 or more, came %s", name, key, core.describe(value))
+    end
   end
 end
 
@@ -129,8 +133,8 @@ op { name = "tunica.phyllotaxis", kind = "named", returns = "a model of phyllota
     if o.params ~= nil and not params.is(o.params) then
       fail("tunica.phyllotaxis: 'params' must be what tunica.params gave, came %s", core.describe(o.params))
     end
-    check_options("tunica.phyllotaxis: jitter", o.jitter, { angle = true, along = true })
-    if type(o.stop) == "table" then check_options("tunica.phyllotaxis: stop", o.stop, { primordia = true, time = true }) end
+    check_options("tunica.phyllotaxis: jitter", o.jitter, { "angle", "along" })
+    if type(o.stop) == "table" then check_options("tunica.phyllotaxis: stop", o.stop, { "primordia", "time" }) end
     if type(o.stop) == "number" and o.stop < 0 then fail("tunica.phyllotaxis: 'stop' must be 0 or more, came %.10g", o.stop) end
     if o.samples % o.jugacy ~= 0 then
       fail("tunica.phyllotaxis: 'samples' must be a multiple of the jugacy: %d samples, jugacy %d", o.samples, o.jugacy)

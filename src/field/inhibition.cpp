@@ -88,7 +88,8 @@ Vec2 Inhibition::track(double age) const {
 double Inhibition::threshold(size_t k, double t) const {
   const double value = fields_[k].threshold(t);
   if (!std::isfinite(value))
-    fail("the threshold of inhibition {} is {} at t = {}; it must be a finite number", k + 1, value, t);
+    fail("the threshold of inhibition {} is {} at t = {:.6g}; it must be a finite number", k + 1,
+         std::isnan(value) ? "not a number" : "infinite", t);
   return value;
 }
 

@@ -76,7 +76,6 @@ op { name = "phyllotaxis:pattern", kind = "named", returns = "what tunica.patter
     { name = "last", type = "integer", min = 1, doc = "number of the last one; by default the youngest" },
     { name = "jugacy", type = "integer", min = 1, max = 1000, doc = "found if left out, or imposed by the model" },
     { name = "expected", type = "table", doc = "{ angle =, jugacy =, pair = { m, n } }" } },
-  example = example .. "model:advance(3) print(model:pattern())",
   fn = function(model, o)
     local my, list = inside[model], model:primordia()
     local first = o.first or 1
