@@ -151,6 +151,12 @@ local function data_of(model, given)
   return data
 end
 
+--- The threshold of the first inhibitor at a time.
+local function threshold_at(my, time)
+  local below = my.rules[1].below
+  return type(below) == "number" and below or core.call_rule(below, time)
+end
+
 local others = { "every", "name", "file" }
 table.insert(view.others, {
   is = phyllotaxis.is_phyllotaxis,
@@ -206,8 +212,9 @@ model:picture { os.tmpname() .. ".png", size = 100 }
 op { name = "phyllotaxis:plot", kind = "named", returns = "the path, or paths", source = "thesis figs. 4.2, 4.4",
   args = { { name = "file", type = "string|list", of = "string", count = { 1, 10 }, required = true, position = 1,
       doc = "path that ends in .png or .svg, or a list of such; replaced if they are there" },
-    { name = "show", type = "string", choices = { "divergence", "field" }, default = "divergence",
-      doc = "the divergence angle of each primordium, or the first inhibitor's field around the ring with its threshold" },
+    { name = "show", type = "string", choices = { "divergence", "threshold", "field" }, default = "divergence",
+      doc = "the divergence angle of each primordium; 'threshold': against the first inhibitor's threshold when it was born (what a " ..
+        "function of time says of that time now), as transitions are shown; 'field': that inhibitor's field around the ring" },
     { name = "lines", type = "list", of = "number|table", doc = "straight lines through the plot, as in tunica.plot: { 137.5 }" },
     { name = "title", type = "string", doc = "above the plot" },
     { name = "yrange", type = "list", of = "number", count = { 2, 2 }, doc = "{ low, high }" } },
@@ -223,12 +230,15 @@ os.remove(path)
     local my = phyllotaxis.inside[model]
     local options = { file = given.file, title = given.title, yrange = given.yrange, lines = given.lines }
     if given.show == "field" then
-      local data, below = { ring = ring_of(my, 0) }, my.rules[1].below
-      if type(below) ~= "number" then below = core.call_rule(below, model.time) end
-      data.ring.threshold = not given.lines and below or nil
+      local data = { ring = ring_of(my, 0) }
+      data.ring.threshold = not given.lines and threshold_at(my, model.time) or nil
       return registry.module.plot(apex_view.ring_plot(data, options))
     end
     if #list < 2 then fail("phyllotaxis:plot: there is no divergence angle with %d primordia", #list) end
     for _, p in ipairs(list) do p.theta = p.angle end
+    if given.show == "threshold" then
+      options.x, options.style, options.xlabel = {}, "points", "threshold"
+      for i = 2, #list do options.x[i - 1] = threshold_at(my, list[i].time) end
+    end
     return registry.module.plot(apex_view.divergence_plot({ primordia = list }, options))
   end }

@@ -85,7 +85,10 @@ void add_disc(const Vec3& centre, double radius, const Colour& colour, Scene& sc
   disc.width = 1;
 }
 
-double wrapped(double theta) { return theta - turn * std::floor(theta / turn); }
+double wrapped(double theta) {
+  const double rest = std::fmod(theta, turn);
+  return rest < 0 ? rest + turn : rest;
+}
 
 /// Discs and numbers; those near an edge stand at the other edge too, paler.
 void add_primordia(const DrawnApex& apex, const Unrolled& map, Scene& scene) {

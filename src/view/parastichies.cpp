@@ -11,7 +11,7 @@ namespace {
 constexpr double turn = 2 * M_PI;
 
 /// An angle as the nearest equivalent to `near`.
-double unwrap(double angle, double near) { return angle - turn * std::round((angle - near) / turn); }
+double unwrap(double angle, double near) { return near + std::remainder(angle - near, turn); }
 
 /// Calls visit(i, k) for primordia and each member of the whorl that is `steps` primordia later.
 template <class Visit>

@@ -146,6 +146,7 @@ check.fails(function() flat:picture { "a.jpg" } end, "must end in .png")
 check.fails(function() model_on(function(age) return 1, -age end):plot { name .. ".png" } end, "no divergence angle")
 if drawable then
   flat:plot { name .. ".png", lines = { 137.5 } }
+  flat:plot { name .. ".png", show = "threshold" }
   round:plot { name .. ".png", show = "field", title = "field" }
 end
 

@@ -298,6 +298,8 @@ TEST(LatticeScene, DiscsLieAtTheirAngleAndLinesWrapAround) {
   EXPECT_NO_THROW(render(scene));
   view.map = ApexView::Map::arc;
   EXPECT_NO_THROW(render(scene_of_lattice(apex, view)));
+  apex.primordia[3].theta = 1e300;
+  EXPECT_NO_THROW(render(scene_of_lattice(apex, view)));
   view.by = ApexView::By::field;
   expect_fail("no field", [&] { scene_of_lattice(apex, view); });
 }
