@@ -23,7 +23,8 @@ apex_view.arguments = {
   { name = "from", type = "string", choices = { "top", "oblique", "side" }, default = "top", doc = "where it is seen from" },
   { name = "turn", type = "number", unit = "degrees", default = 0, doc = "of the apex about its axis" },
   { name = "zoom", type = "number", above = 0, max = 1000, default = 1, doc = "1: all is in the picture" },
-  { name = "reach", type = "number", above = 0, doc = "length along the profile that is shown; by default as far as there are primordia" },
+  { name = "reach", type = "number", above = 0, unit = "length",
+    doc = "how much of the profile is shown; by default as far as there are primordia" },
   { name = "parastichies", type = "boolean|list", of = "integer", count = { 2, 2 },
     doc = "curves through primordia n, n + m, n + 2m ...: true for the contact pair, or { m, n }" },
   { name = "lattice", type = "boolean|string", choices = { "angles", "arc", "log" },
@@ -74,7 +75,9 @@ function apex_view.settings(given, also)
     local spec = by_name[name]
     if spec then
       local ok, hint = registry.matches(value, spec)
-      if not ok then fail("'%s' of a view must be %s, came %s%s", name, registry.expected(spec), core.describe(value), hint or "") end
+      if not ok then
+        fail("'%s' of a view must be %s, came %s%s", name, registry.expected(spec), core.describe(value), hint or "")
+      end
     elseif not passed[name] then
       fail("a view of an apex has no option %s%s; the options are: %s", (core.describe(name):gsub("^the text ", "")),
         type(name) == "string" and core.did_you_mean(name, names) or "", table.concat(names, ", "))
@@ -175,13 +178,24 @@ function apex_view.divergence_plot(data, given)
   return with({ x = x, y = y, style = "both", xlabel = "primordium", ylabel = "divergence angle, degrees" }, given)
 end
 
+--- Where a plot of a field ends that has a pole, at a primordium just born; nil if it has none.
+local function below_poles(values, threshold)
+  local sorted = {}
+  for i, value in ipairs(values) do sorted[i] = value end
+  table.sort(sorted)
+  local low, high = math.min(sorted[1], threshold or sorted[1]), sorted[math.ceil(0.75 * #sorted)]
+  if sorted[1] < 0 or high <= 0 or sorted[#sorted] < 3 * high then return nil end
+  return { 0.9 * low, math.max(2 * high - low, 1.1 * (threshold or 0)) }
+end
+
 --- The inhibition around the ring, with the threshold as a line.
 function apex_view.ring_plot(data, given)
   local ring, x = data.ring, {}
   if not ring or not ring.values then fail("the data has no ring with values to plot") end
   for i = 1, #ring.values do x[i] = ring.angles and ring.angles[i] or 360 * (i - 1) / #ring.values end
   return with({ x = x, y = ring.values, style = "lines", xlabel = "angle around the ring, degrees", ylabel = "inhibition",
-    xrange = { 0, 360 }, lines = ring.threshold and { { y = ring.threshold, text = "threshold" } } or nil }, given)
+    xrange = { 0, 360 }, yrange = below_poles(ring.values, ring.threshold),
+    lines = ring.threshold and { { y = ring.threshold, text = "threshold" } } or nil }, given)
 end
 
 return apex_view

@@ -91,7 +91,8 @@ local function point_at(points, lengths, arc)
   end
   local span = lengths[high] - lengths[low]
   local t = span > 0 and (arc - lengths[low]) / span or 0
-  return math.max(0, points[low][1] + t * (points[high][1] - points[low][1])), points[low][2] + t * (points[high][2] - points[low][2])
+  local p, q = points[low], points[high]
+  return math.max(0, p[1] + t * (q[1] - p[1])), p[2] + t * (q[2] - p[2])
 end
 
 -- The data ----------------------------------------------------------------------------------------------------------------
@@ -135,7 +136,8 @@ local function data_of(model, given)
   local lengths = lengths_of(points)
   local data = { profile = points, primordia = {}, jugacy = 1 }
   for i, p in ipairs(list) do
-    data.primordia[i] = { theta = p.angle, arc = arc_of(points, lengths, p.radius, p.y), age = p.age, number = p.number, value = p.time }
+    local arc = arc_of(points, lengths, p.radius, p.y)
+    data.primordia[i] = { theta = p.angle, arc = arc, age = p.age, number = p.number, value = p.time }
   end
   data.ring = ring_of(my, arc_of(points, lengths, my.ring.radius, my.ring.height))
   data.field = function(theta, arc)
@@ -186,7 +188,8 @@ model:inhibition { field = function(d, age) return math.exp(-age) / d end, below
 op { name = "phyllotaxis:view", kind = "named", source = "thesis figs. 4.2, 4.6, 4.9, 4.12",
   args = with { { name = "every", type = "number", above = 0, unit = "time", doc = "between pictures; without it, one at the end" },
     { name = "name", type = "string", doc = "of the pictures' folder, where a model has several views" } },
-  doc = "How the model is to be shown: the apex with its primordia, or unrolled. A run writes a picture every so often, and one at its end.",
+  doc = "How the model is to be shown: the apex with its primordia, or unrolled. A run writes a picture every so often, and one " ..
+    "at its end.",
   example = example .. [[model:view { colour = "age", from = "top", every = 0.5 }]],
   fn = function(model, given)
     apex_view.settings(given, others)
@@ -197,7 +200,8 @@ op { name = "phyllotaxis:view", kind = "named", source = "thesis figs. 4.2, 4.6,
   end }
 
 op { name = "phyllotaxis:picture", kind = "named", returns = "the path", source = "thesis figs. 4.2, 4.6, 4.9, 4.12",
-  args = with { { name = "file", type = "string", required = true, position = 1, doc = "path that ends in .png; replaced if it is there" } },
+  args = with { { name = "file", type = "string", required = true, position = 1,
+    doc = "path that ends in .png; replaced if it is there" } },
   doc = "Writes a picture of the apex as it is now.",
   example = example .. [[
 model:advance(1)
