@@ -112,13 +112,12 @@ local function ring_of(my, arc)
   return ring
 end
 
---- The contact pair and jugacy of the primordia, where there are enough of them to tell.
+--- The contact pair and jugacy of the primordia, where there are enough of them to tell. Else nothing: a run must not end
+-- because its first pictures have no pattern yet.
 local function read_pattern(list, data)
   local ok, pattern = pcall(core.read_pattern, list, {})
   local pair = ok and pattern.pair
-  if type(pair) ~= "table" or not pair[1] or pair[1] < 1 then
-    fail "parastichies: the contact pair of these primordia cannot be told; give it, parastichies = { 5, 8 }"
-  end
+  if not pair or pair[1] % pattern.jugacy ~= 0 or pair[2] % pattern.jugacy ~= 0 then return end
   data.parastichies, data.jugacy = { pair[1], pair[2] }, pattern.jugacy
 end
 
@@ -149,6 +148,7 @@ local function data_of(model, given)
     local common = divisor(given.parastichies[1], given.parastichies[2])
     -- (6, 6) may be whorls of six or of three: as the model has them.
     data.jugacy = my.jugacy > 1 and common % my.jugacy == 0 and my.jugacy or common
+    data.parastichies = given.parastichies
   end
   return data
 end
@@ -167,7 +167,9 @@ table.insert(view.others, {
     local options = {}
     for name, value in pairs(given) do options[name] = value end
     options.title = title
-    return apex_view.draw(data_of(model, given), options, texts, others)
+    local data = data_of(model, given)
+    options.parastichies = data.parastichies
+    return apex_view.draw(data, options, texts, others)
   end })
 
 -- Operations ----------------------------------------------------------------------------------------------------------------

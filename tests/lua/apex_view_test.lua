@@ -123,7 +123,12 @@ local function model_on(path)
 end
 local flat, round = model_on(function(age) return math.exp(age), 0 end), model_on(function(age) return 1, -age end)
 for _, model in ipairs { flat, round } do
-  check.equal(model:picture { name .. ".png", size = 80 }, name .. ".png")  -- before anything has happened
+  -- Before anything has happened there is no pattern, and none is asked for.
+  for _, options in ipairs { {}, { parastichies = true }, { lattice = true, parastichies = true, labels = true },
+    { colour = "field", arrows = true } } do
+    options[1], options.size = name .. ".png", 80
+    check.equal(model:picture(options), name .. ".png")
+  end
   model:advance(2)
   for _, options in ipairs { {}, { from = "side", labels = true }, { colour = "field", arrows = true, reach = 2 }, { lattice = true },
     { parastichies = { 1, 2 }, turn = 90 } } do
