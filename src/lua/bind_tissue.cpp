@@ -14,6 +14,7 @@ void register_tissue(lua_State* L) {
   register_growth(L);
   register_surfaces(L);
   register_apex_tissue(L);
+  register_pattern(L);
 }
 
 }  // namespace tunica::lua
