@@ -29,9 +29,11 @@ end
 op { name = "tunica.pattern", returns = "a table that prints as its description",
   args = {
     { name = "list", type = "list", required = true,
-      doc = "primordia, oldest first: angles, or tables { angle =, time =, radius = | x =, y =, z = }; the axis is y, places are all of one moment" },
+      doc = "primordia, oldest first: angles, or tables { angle =, time =, radius = | x =, y =, z = }; the axis is y, places are "
+        .. "all of one moment" },
     { name = "options", type = "table",
-      doc = "{ jugacy = (found if left out), first =, last = (numbers of primordia), expected = { angle =, jugacy =, pair = { m, n } } }" },
+      doc = "{ jugacy = (found if left out), first =, last = (numbers of primordia), "
+        .. "expected = { angle =, jugacy =, pair = { m, n } } }" },
   },
   doc = "Reads a phyllotactic pattern: name and the evidence for it, divergence angles as they come and re-ordered along the "
     .. "generative spiral, jugacy, contact pair, allowable interval, plastochrons. With `expected`, field judgement says whether "
@@ -52,9 +54,11 @@ print(pattern)
 print(table.concat(pattern.evidence, "\n"))]] }
 
 local function member(name, position)
-  return { name = name, type = "integer", min = 1, max = 1000000, required = true, position = position, doc = "of the parastichy pair" }
+  return { name = name, type = "integer", min = 1, max = 1000000, required = true, position = position,
+    doc = "of the parastichy pair" }
 end
-local jugacy = { name = "jugacy", type = "integer", min = 1, max = 1000000, doc = "greatest common divisor of m and n, which it is taken from" }
+local jugacy = { name = "jugacy", type = "integer", min = 1, max = 1000000,
+  doc = "greatest common divisor of m and n, from which it is taken" }
 
 op { name = "tunica.sequence", kind = "named", returns = "a list of terms, with name, limit (degrees) and jugacy",
   args = { member("m", 1), member("n", 2), jugacy,
@@ -70,7 +74,8 @@ op { name = "tunica.sequence", kind = "named", returns = "a list of terms, with 
 op { name = "tunica.allowable_interval", kind = "named",
   returns = "the least and the greatest angle; nil if the pair is not visible and opposed at `angle`",
   args = { member("m", 1), member("n", 2),
-    { name = "angle", type = "number", min = 0, max = 360, unit = "degrees", doc = "near which; the limit of the pair's sequence if left out" },
+    { name = "angle", type = "number", min = 0, max = 360, unit = "degrees",
+      doc = "that must be in it; the limit of the pair's sequence if left out" },
     jugacy },
   doc = "The divergence angles at which two families of parastichies can be visible and opposed.", source = "thesis 4.3",
   fn = function(t) return core.allowable_interval(t.m, t.n, t.angle, t.jugacy) end,
@@ -97,8 +102,8 @@ local function find_columns(path, header)
     end
   end
   if not (at.angle or at.divergence or at.x and at.z) then
-    fail("%s:%d: the first line must name the columns, with angle, or divergence, or x and z among them (also known: time, radius, y); it is: %s",
-      path, header.line, table.concat(header.fields, ", "):sub(1, 200))
+    fail("%s:%d: the first line must name the columns, with angle, or divergence, or x and z among them (also known: time, "
+      .. "radius, y); it is: %s", path, header.line, table.concat(header.fields, ", "):sub(1, 200))
   end
   return at
 end
@@ -126,10 +131,13 @@ local function primordium(path, record, at, before)
     elseif at.divergence and not before then
       one.angle = 0  -- the first has none
     else
-      fail("%s:%d: this primordium has no %s", path, record.line, at.angle and "angle" or at.divergence and "divergence" or "x and z")
+      fail("%s:%d: this primordium has no %s", path, record.line,
+        at.angle and "angle" or at.divergence and "divergence" or "x and z")
     end
   end
-  if one.radius and one.radius < 0 then fail("%s:%d: radius must be 0 or more, came %.10g", path, record.line, one.radius) end
+  if one.radius and one.radius < 0 then
+    fail("%s:%d: radius must be 0 or more, came %.10g", path, record.line, one.radius)
+  end
   if one.time and before and before.time and one.time < before.time then
     fail("%s:%d: the time falls: primordia are listed oldest first", path, record.line)
   end

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "base/cancel.h"
 #include "field/sequence.h"
 #include "tissue/tissue.h"
 
@@ -65,7 +64,6 @@ struct Pattern {
 
 struct PatternOptions {
   int jugacy = 0;  ///< 0: to be found
-  const CancelFlag* cancel = nullptr;
 };
 
 /// Reads the pattern of primordia, oldest first (thesis 4.3; Jean 1994). Takes time in proportion to their number.
@@ -86,10 +84,10 @@ struct ExpectedPattern {
 struct Judgement {
   bool lenient = false;  ///< thesis table 4.2: mean in the allowable interval, sd < max(1.5, half its width + 1)
                          ///< degrees, intra < 2.5 degrees, spread < 0.5; spirals may be re-ordered
-  bool strict = false;  ///< also the mean within 1 degree of the angle expected, without re-ordering
-  bool hold = false;    ///< thesis table 4.1: mean within 3 degrees (Lucas, jugate 4, Fibonacci 8), sd < 4, intra < 12,
-                        ///< pair of the sequence expected (where places are known)
-  std::string why;      ///< what each rule that is not met asks, and what there is; "" if all are
+  bool strict = false;   ///< also the mean within 1 degree of the angle expected, without re-ordering
+  bool hold = false;  ///< thesis table 4.1: mean within 3 degrees (Lucas, jugate 4, Fibonacci 8), sd < 4, intra < 12,
+                      ///< pair of the sequence expected (where places are known)
+  std::string why;    ///< what each rule that is not met asks, and what there is; "" if all are
 };
 
 /// Judges a pattern that was read with the jugacy expected; another jugacy fails every rule.

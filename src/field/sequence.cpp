@@ -26,7 +26,7 @@ int jugacy_of(int m, int n, int jugacy) {
   return common;
 }
 
-/// u, v with u n - v m = 1, 0 <= u <= m, for m, n without common divisor.
+/// u, v with u n - v m = 1, 1 <= u <= m, for m, n without common divisor.
 std::pair<long, long> bezout(long m, long n) {
   long a = n, b = m, s = 1, t = 0;  // a = s n mod m
   while (b != 0) {
@@ -34,7 +34,7 @@ std::pair<long, long> bezout(long m, long n) {
     a = std::exchange(b, a - q * b);
     s = std::exchange(t, s - q * t);
   }
-  const long u = ((s % m) + m) % m;
+  const long u = ((s - 1) % m + m) % m + 1;
   return {u, (u * n - 1) / m};
 }
 
@@ -45,7 +45,6 @@ double fold(double fraction) {
 
 double limit_of(int first, int second) {
   if (second == 1) return .5;
-  if (first == 1) return std::numbers::phi / (1 + second * std::numbers::phi);
   const auto [u, v] = bezout(first, second);
   return fold((static_cast<double>(u) + static_cast<double>(v) * std::numbers::phi) /
               (first + second * std::numbers::phi));
