@@ -19,7 +19,7 @@ void register_division(lua_State* L);
 void register_growth(lua_State* L);    ///< growth, statistics, peaks, files
 void register_surfaces(lua_State* L);  ///< surfaces, growth and removal on them
 void register_apex_tissue(lua_State* L);
-void register_pattern(lua_State* L);   ///< patterns of primordia
+void register_pattern(lua_State* L);  ///< patterns of primordia
 
 /// Adds C functions to the table on top of the stack.
 inline void add_functions(lua_State* L, const luaL_Reg* functions) {
