@@ -41,19 +41,19 @@ struct Link {
   double turn;
 };
 
-/// The links of both families of a contact pair: n with n + m, and n with n + n'. Of the members of a whorl that
+/// The links of both families of a contact pair: i with i + m, and i with i + n. Of the members of a whorl that
 /// partner is taken which lies nearest to where the family's mean turn leads; links that stray by more than half the
 /// distance between neighbouring parastichies are left out.
 std::pair<std::vector<Link>, std::vector<Link>> parastichies(const std::vector<Bump>& primordia,
                                                              std::pair<int, int> pair, int jugacy);
 
-/// A local minimum of a field around the ring.
+/// A local minimum of a field around the ring; of values in a row that are alike the middle counts.
 struct Minimum {
   double angle;
   double depth;  ///< below what three quarters of the ring stay under, relative to the deepest; 0: above that
   bool chosen;
 };
-std::vector<Minimum> minima_of(const FieldRing& ring);  // values must not be NaN
+std::vector<Minimum> minima_of(const FieldRing& ring);
 
 /// Parts of scene_of_apex.
 void add_apex_surface(const DrawnApex& apex, Scene& scene);
