@@ -137,6 +137,17 @@ for _, model in ipairs { flat, round } do
     assert(core.read_file(name .. ".png"):sub(1, 4) == "\137PNG")
   end
 end
+
+-- The contact pair is read from the primordia.
+local spiral_model = model_on(function(age) return math.exp(age), 0 end)
+for i = 0, 29 do spiral_model:primordium { angle = 137.5 * i, age = 0.05 * (30 - i) } end
+local function shown(parastichies)
+  spiral_model:picture { name .. ".png", size = 120, parastichies = parastichies }
+  return core.read_file(name .. ".png")
+end
+local found = tunica.pattern(spiral_model:primordia()).pair
+assert(shown(true) == shown { found[1], found[2] } and shown(true) ~= shown(false))
+
 local before = flat:hash()
 flat:picture { name .. ".png", size = 60, colour = "field" }
 check.equal(flat:hash(), before, "a picture changes nothing")
