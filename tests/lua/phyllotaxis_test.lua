@@ -40,7 +40,8 @@ do
   for i = 90, 120 do check.near(math.abs(list[i].divergence), 137.1, 3, "divergence") end
   check.near(list[31].time, 0, 1e-3)
   check.near((list[31].angle + 180) % 360, 180, 4)
-  if pcall(function() return tunica.pattern end) then assert(tostring(model:pattern()):find "Fibonacci") end
+  assert(tostring(model:pattern()):find "Fibonacci")
+  assert(model:pattern { expected = { angle = 137.51 } }.judgement.hold)
 end
 
 -- Pauses, pictures and snapshots change no bit; a snapshot is gone back to.

@@ -76,6 +76,7 @@ op { name = "phyllotaxis:pattern", kind = "named", returns = "what tunica.patter
     { name = "last", type = "integer", min = 1, doc = "number of the last one; by default the youngest" },
     { name = "jugacy", type = "integer", min = 1, max = 1000, doc = "found if left out, or imposed by the model" },
     { name = "expected", type = "table", doc = "{ angle =, jugacy =, pair = { m, n } }" } },
+  example = example .. "model:advance(3) print(model:pattern())",
   fn = function(model, o)
     local my, list = inside[model], model:primordia()
     local first = o.first or 1
@@ -95,6 +96,11 @@ op { name = "phyllotaxis:minimum", returns = "the angle (degrees), the field the
   end }
 
 -- For the record ------------------------------------------------------------------------------------------------------------------
+
+--- For charts of methods, which are of models with rates.
+function methods.state_columns()
+  fail "a model of phyllotaxis has no rates, so there are no methods of integration to compare; its accuracy is set by samples and tolerance"
+end
 
 --- What the model has cost since it was made.
 function methods.cost_of(model)

@@ -38,13 +38,17 @@ local function fire_counts(my, now)
   return fired
 end
 
+--- True if any has become true.
 local function test_conditions(my, now)
+  local fired = false
   for _, c in ipairs(my.conditions) do
     local holds = c.test(now) and true or false
     local becomes = holds and not c.holds
     c.holds = holds
     if becomes then c.fn(now) end
+    fired = fired or becomes
   end
+  return fired
 end
 
 local function any_becomes(my, time)
@@ -100,17 +104,16 @@ local function go_on(my, target)
     local found = high > before and locate(my, before, high)
     if found then
       core.inhibition_show(my.engine, found)
-      test_conditions(my, found)
+      if test_conditions(my, found) then prepare(my) end
       return
     end
   end
   local status = core.inhibition_advance(my.engine, target)
   if status == "interrupted" then return status end
   local s = core.inhibition_state(my.engine)
-  if status == "inserted" then fire_counts(my, s.time) end
+  if status == "inserted" and fire_counts(my, s.time) then prepare(my) end
   if status == "clear" then check_patience(my, s) end
-  prepare(my)
-  if #my.conditions > 0 then test_conditions(my, s.time) end
+  if #my.conditions > 0 and test_conditions(my, s.time) then prepare(my) end
 end
 
 local function advance(model, o)
@@ -137,7 +140,6 @@ local function advance(model, o)
     local status = go_on(my, math.max(target, now))
     stepped = true
     if status then return status end
-    prepare(my)
     if deadline and core.now() >= deadline and model.time < o.to then return "out of time" end
   end
 end
