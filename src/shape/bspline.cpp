@@ -115,9 +115,12 @@ void BSpline::evaluate(double u, Vec2& point, Vec2& derivative) const {
 }
 
 Vec2 BSpline::derivative(double u, int order) const {
-  if (order > degree_) return Vec2::Zero();
   u = std::clamp(u, begin(), end());
-  const size_t k = span(u);
+  return derivative_in(span(u), u, order);
+}
+
+Vec2 BSpline::derivative_in(size_t k, double u, int order) const {
+  if (order > degree_) return Vec2::Zero();
   Local d;
   std::copy_n(points_.begin() + static_cast<long>(k) - degree_, degree_ + 1, d.begin());
   // Control points of the derivative, then de Boor at the lower degree, on the same knots.
@@ -134,15 +137,31 @@ Vec2 BSpline::derivative(double u, int order) const {
   return d[static_cast<size_t>(left)];
 }
 
+/// The direction at u within a span; where the curve all but stops, that in which it leaves or reaches the nearer end
+/// of the span. False: it does not move in it.
+bool BSpline::direction_in(size_t k, double u, Vec2& direction) const {
+  const double step = knots_[k + 1] - knots_[k];
+  double scale = 1e-8 * size_ / step, sign = 1;
+  direction = derivative_in(k, u, 1);
+  const bool reaches = u - knots_[k] > step / 2;
+  for (int order = 2; order <= degree_ && !(direction.norm() > scale); ++order) {
+    if (reaches) sign = -sign;  // seen from below, even derivatives count the other way
+    direction = sign * derivative_in(k, reaches ? knots_[k + 1] : knots_[k], order);
+    scale /= step;
+  }
+  if (!(direction.norm() > scale)) return false;
+  direction.normalize();
+  return true;
+}
+
 Vec2 BSpline::direction(double u) const {
   u = std::clamp(u, begin(), end());
-  const double step = knots_[span(u) + 1] - knots_[span(u)];
-  double scale = 1e-8 * size_, sign = 1;
-  for (int order = 1; order <= degree_; ++order) {
-    const Vec2 d = sign * derivative(u, order);
-    scale /= step;
-    if (d.norm() > scale) return d.normalized();
-    if (u == end()) sign = -sign;  // seen from the left, even derivatives count the other way
+  Vec2 direction;
+  size_t k = span(u);
+  if (direction_in(k, u, direction)) return direction;
+  while (k > static_cast<size_t>(degree_)) {
+    --k;
+    if (knots_[k] < knots_[k + 1] && direction_in(k, knots_[k + 1], direction)) return direction;
   }
   return Vec2::UnitX();
 }

@@ -44,12 +44,15 @@ class BSpline {
   Vec2 derivative(double u, int order = 1) const;
   /// Point and first derivative at once.
   void evaluate(double u, Vec2& point, Vec2& derivative) const;
-  /// Unit tangent, also where the derivative vanishes (repeated control points): the limit, from the side as above.
+  /// Unit tangent, also where the derivative vanishes (repeated control points): the limit, from the side as above, or
+  /// from the other where the curve stands still on that side.
   Vec2 direction(double u) const;
 
  private:
   void check();
   size_t span(double u) const;
+  Vec2 derivative_in(size_t span, double u, int order) const;
+  bool direction_in(size_t span, double u, Vec2& direction) const;
   std::vector<Vec2> points_;
   int degree_;
   std::vector<double> knots_, breaks_;

@@ -112,6 +112,7 @@ void Profile::measure(const std::vector<double>& breaks) {
   if (std::abs(start_.x()) < 1e-12 * size_) start_.x() = 0;
   panels_.push_back({breaks.front(), 0, 0});
   for (size_t i = 0; i + 1 < breaks.size(); ++i) add_panels(breaks[i], breaks[i + 1], 0);
+  while (panels_.size() > 1 && panels_.back().a == panels_[panels_.size() - 2].a) panels_.pop_back();
   if (!(length() > 1e-12 * size_)) fail("the profile has no length");
   take_samples();
   check();
@@ -131,7 +132,10 @@ void Profile::add_panels(double from, double to, int depth) {
     return;
   }
   if (!(left + right > 1e-15 * size_)) {  // all its control points are in one place
-    if (panels_.size() == 1) panels_[0].u = to;
+    if (panels_.size() == 1)
+      panels_[0].u = to;
+    else
+      panels_.push_back({to, panels_.back().a, panels_.back().area});
     return;
   }
   const Panel& last = panels_.back();
@@ -153,16 +157,18 @@ void Profile::take_samples() {
       const double turn = zero_between(slope, samples_.back().u, u);
       Vec2 there, along;
       evaluate(turn, there, along);
-      if (turn > samples_.back().u && turn < u) samples_.push_back({turn, there});
+      if (turn > samples_.back().u && turn < u) samples_.push_back({turn, 0, there});
     }
-    samples_.push_back({u, point});
+    samples_.push_back({u, 0, point});
     before = derivative;
   };
   for (size_t i = 0; i + 1 < panels_.size(); ++i) {
     const double from = panels_[i].u, width = panels_[i + 1].u - from;
+    if (panels_[i + 1].a == panels_[i].a) continue;  // stands still
     for (int k = 0; k < samples_per_panel; ++k) add(from + width * k / samples_per_panel);
   }
   add(panels_.back().u);
+  for (Sample& s : samples_) s.a = arc(s.u);
   for (const Sample& s : samples_) widest_ = std::max(widest_, s.point.x());
 }
 
@@ -258,8 +264,8 @@ double Profile::arc_at_radius(double r) const {
   return arc(zero_between(short_of, samples_[i - 1].u, samples_[i].u));
 }
 
-/// Where between two parameters the distance to p stops to fall.
-double Profile::nearest_between(const Vec2& p, double low, double high) const {
+/// Where between two parameters the distance to p turns from falling to rising, if it does.
+std::optional<double> Profile::nearest_between(const Vec2& p, double low, double high) const {
   const auto receding = [&](double u) {
     Vec2 point, derivative;
     evaluate(u, point, derivative);
@@ -267,21 +273,25 @@ double Profile::nearest_between(const Vec2& p, double low, double high) const {
     if (derivative.norm() < 1e-6 * size_) derivative = 1e-6 * size_ * direction(u);
     return (point - p).dot(derivative);
   };
+  if (!(receding(low) < 0 && receding(high) >= 0)) return std::nullopt;
   return zero_between(receding, low, high);
 }
 
 double Profile::closest(const Vec2& p) const {
-  std::vector<double> distances(samples_.size());
-  for (size_t i = 0; i < samples_.size(); ++i) distances[i] = (samples_[i].point - p).norm();
-  double best = samples_[0].u, least = HUGE_VAL;
-  for (size_t i = 0; i < samples_.size(); ++i) {
-    const bool falling = i == 0 || distances[i] <= distances[i - 1];
-    const bool rising = i + 1 == samples_.size() || distances[i] < distances[i + 1];
-    if (!falling || !rising) continue;
-    const size_t low = i == 0 ? 0 : i - 1, high = std::min(i + 1, samples_.size() - 1);
-    const double u = nearest_between(p, samples_[low].u, samples_[high].u);
-    const double distance = (point_at(u) - p).norm();
-    if (distance < least) least = distance, best = u;
+  std::vector<double> distances;
+  distances.reserve(samples_.size());
+  for (const Sample& s : samples_) distances.push_back((s.point - p).norm());
+  const auto nearest = std::min_element(distances.begin(), distances.end());
+  double best = samples_[static_cast<size_t>(nearest - distances.begin())].u, least = *nearest;
+  bool inside = false;  // a sample gives way to a place between samples at the same distance, which is the exact one
+  for (size_t i = 0; i + 1 < samples_.size(); ++i) {
+    // Along an arc the distance changes by its length at most.
+    if ((distances[i] + distances[i + 1] - (samples_[i + 1].a - samples_[i].a)) / 2 > least) continue;
+    const double from = samples_[i].u, to = samples_[i + 1].u;
+    const auto u = nearest_between(p, from, to - 1e-13 * (to - from));  // short of what may be a corner
+    if (!u) continue;
+    const double distance = (point_at(*u) - p).norm();
+    if (distance < least || (!inside && distance <= least)) least = distance, best = *u, inside = true;
   }
   const double on = std::max(0., (p - end_).dot(onward_));
   if (on > 0 && ((end_ + on * onward_ - p).norm() < least || best == samples_.back().u)) return length() + on;

@@ -44,7 +44,7 @@ class Profile {
     double u, a, area;  ///< parameter; arc length and area since the start
   };
   struct Sample {
-    double u;
+    double u, a;
     Vec2 point;
   };
   struct Cap {
@@ -63,7 +63,7 @@ class Profile {
   size_t panel_at_arc(double a) const;
   double parameter(double a) const;
   double arc(double u) const;
-  double nearest_between(const Vec2& p, double low, double high) const;
+  std::optional<double> nearest_between(const Vec2& p, double low, double high) const;
 
   std::optional<BSpline> curve_;
   Cap cap_{};
