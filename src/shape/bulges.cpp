@@ -203,7 +203,7 @@ Vec3 Bulges::base_of_closest(const Vec3& p) const {
 Vec3 Bulges::closest(const Vec3& p) const { return lifted(base_of_closest(p)); }
 
 Vec3 Bulges::normal(const Vec3& p) const {
-  const Vec3 b = base_of_closest(p), outward = base_->normal(b);
+  const Vec3 b = base_->closest(p), outward = base_->normal(b);
   const double scale = scale_at(b);
   if (scale == 0) return outward;
   const Chart chart(*this, b, scale);

@@ -218,6 +218,9 @@ double Profile::parameter(double a) const {
     const double v = speed(u);
     double next = v > 0 ? u - error / v : low - 1;
     if (!(next > low && next < high)) next = (low + high) / 2;
+    // Where the curve comes to rest at an end of the panel its speed changes by as much again within the distance from
+    // there; a step that is so much shorter leaves an error of rounding.
+    if (std::abs(next - u) <= 1e-8 * std::min(next - from.u, to.u - next)) return next;
     if (std::abs(next - u) <= 1e-16 * (std::abs(u) + to.u - from.u)) return next;
     u = next;
   }

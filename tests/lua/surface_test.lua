@@ -150,3 +150,56 @@ model:advance { to = 4 }
 check.equal(model:hash(), there)
 check.equal(surface:time(), time)
 check.equal(#surface:list(), 3)
+
+-- Cells on an apex: built, grown, divided and cut, with the places of cells kept up to date.
+local apex = tunica.apex { profile = "dome", growth = "raised" }
+local function expect_places(tissue)
+  for c in tissue:cells() do
+    local theta, a = apex:closest(c.x, c.y, c.z)
+    check.near(c.theta, theta, 1e-12)
+    check.near(c.a, a, 1e-12)
+  end
+end
+tissue = tunica.apex_tissue { on = apex, to = 1, max_area = 0.05, seed = 2 }
+check.valid(tissue)
+check.equal(tissue:hash(), tunica.apex_tissue({ on = apex, to = 1, max_area = 0.05, seed = 2 }):hash())
+check.equal(#tunica.apex_tissue { on = apex, cells = 30 }, 30)
+assert(#tissue > 60)
+check.fails(function() print(tissue:max "a") end, "column")
+tissue:locate { on = apex }
+expect_places(tissue)
+local removed = 0
+for _ = 1, 40 do
+  tissue:grow { on = apex, time = 0.05 }
+  tissue:divide { above = 0.05, on = apex }
+  removed = removed + tissue:remove { on = apex, beyond = 1 }
+end
+assert(removed > 50)
+assert(tissue:max "a" <= 1)
+expect_places(tissue)
+tissue:find(tissue:cells()().id):divide { on = apex }
+expect_places(tissue)
+check.valid(tissue)
+check.equal(tissue:statistics().four_way, 0)
+for j in tissue:junctions() do
+  local x1, y1, z1 = apex:position(apex:closest(j.x, j.y, j.z))
+  check.near(math.abs(x1 - j.x) + math.abs(y1 - j.y) + math.abs(z1 - j.z), 0, 1e-9)
+end
+
+-- Primordia bulge out of it.
+surface = tunica.bulges { on = apex, radius = tunica.curve { { 0, 0.1 }, { 4, 0.3 } }, height = tunica.curve { { 0, 0 }, { 4, 0.2 } } }
+for i = 0, 5 do surface:add(i * 137.5, 0.5, i) end
+surface:time(6)
+check.equal(#surface:list(), 6)
+for _ = 1, 5 do
+  tissue:grow { on = surface, time = 0.05 }
+  tissue:divide { above = 0.05, on = surface }
+end
+check.near(surface:time(), 6.25, 1e-12)
+check.valid(tissue)
+expect_places(tissue)
+check.fails(function() tunica.apex_tissue { on = apex } end, "one of")
+check.fails(function() tunica.apex_tissue { on = apex, to = 1, cells = 3 } end, "one of")
+check.fails(function() tunica.apex_tissue { on = tunica.apex { profile = "cylinder" }, to = 1 } end, "hole")
+check.fails(function() tunica.apex_tissue { on = tunica.apex { growth = 0 }, to = 1 } end, "does not grow")
+check.fails(function() tunica.apex_tissue { on = sphere, to = 1 } end, "apex")

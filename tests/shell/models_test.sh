@@ -41,6 +41,17 @@ sharp=$(value model.below_60_degrees)
 code 0 "$tunica" growth/dividing_sheet rule=closest_wall -q --no-frames --out closest
 awk -v a="$sharp" -v b="$(value model.below_60_degrees)" 'BEGIN { exit !(a < b) }' || wrong "sharp cells: errera $sharp, closest wall $(value model.below_60_degrees)"
 
+# Apex: cells divide on the surface as in the plane, and near those of a real apex.
+code 0 "$tunica" growth/apex max_area=0.02 to=1.6 --until 6 -q --no-frames --out apex
+between model.mean_sides 5.9 6.1
+between model.four_way 0 0
+between model.area_cv 0.19 0.36
+sharp=$(value model.below_60_degrees)
+code 0 "$tunica" growth/apex max_area=0.02 to=1.6 rule=closest_wall --until 6 -q --no-frames --out apex_closest
+awk -v a="$sharp" -v b="$(value model.below_60_degrees)" 'BEGIN { exit !(a < b) }' || wrong "sharp cells on the apex: errera $sharp, closest wall $(value model.below_60_degrees)"
+code 0 "$tunica" growth/apex max_area=0.02 to=1.6 rule=along --until 3 -q --no-frames --out apex_along
+between model.four_way 0 0
+
 # The same bits in five processes and after stops. Each model for a short while.
 short() { # model end arguments
   local model=$1 end=$2 name expected
@@ -68,6 +79,7 @@ short patterning/activator_inhibitor 10
 short patterning/real_apex 2
 short growth/dividing_sheet 2
 short growth/cylinder 6
+short growth/apex 1 max_area=0.03 to=1.2
 short numerics/gradient_line 20
 short numerics/activator_inhibitor 2
 short numerics/brusselator 1
