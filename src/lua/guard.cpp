@@ -26,6 +26,7 @@ Host& host(lua_State* L) {
   lua_pushlightuserdata(L, const_cast<char*>(&host_key));
   static_assert(std::is_trivially_destructible_v<Host>, "Lua frees the host without a destructor");
   Host* fresh = new (lua_newuserdata(L, sizeof(Host))) Host;
+  fresh->main = L;
   lua_rawset(L, LUA_REGISTRYINDEX);
   return *fresh;
 }

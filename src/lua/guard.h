@@ -26,6 +26,7 @@ struct Host {
   const void* metatables[5] = {};  ///< of the handles (Kind) and of the tissue (last); see handle.h
   int tissues_made = 0;
   int rules = 0;                ///< that are being called as they are, one inside another (see InRule)
+  lua_State* main = nullptr;    ///< the thread that lives as long as the state
   lua_State* active = nullptr;  ///< the thread that runs an operation which may call back into Lua (see Entering)
 };
 Host& host(lua_State* L);
