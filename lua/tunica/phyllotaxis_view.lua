@@ -159,11 +159,28 @@ local function threshold_at(my, time)
   return type(below) == "number" and below or core.call_rule(below, time)
 end
 
-local others = { "every", "name", "file" }
+--- A plot as bytes of a PNG, with its width and height.
+local function plotted(model, given)
+  local name = os.tmpname()
+  local path = name .. ".png"
+  local ok, message = pcall(model.plot, model, { file = path, show = given.plot, lines = given.lines })
+  local bytes = ok and core.read_file(path)
+  os.remove(name)
+  os.remove(path)
+  if not ok then error(message, 0) end
+  local function number(at)
+    local a, b, c, d = bytes:byte(at, at + 3)
+    return ((a * 256 + b) * 256 + c) * 256 + d
+  end
+  return bytes, number(17), number(21)
+end
+
+local others = { "every", "name", "file", "plot", "lines" }
 table.insert(view.others, {
   is = phyllotaxis.is_phyllotaxis,
   check = function(_, given) apex_view.settings(given, others) end,
   draw = function(model, given, title, texts)
+    if given.plot then return plotted(model, given) end
     local options = {}
     for name, value in pairs(given) do options[name] = value end
     options.title = title
@@ -189,8 +206,11 @@ model:inhibition { field = function(d, age) return math.exp(-age) / d end, below
 
 op { name = "phyllotaxis:view", kind = "named", source = "thesis figs. 4.2, 4.6, 4.9, 4.12",
   args = with { { name = "every", type = "number", above = 0, unit = "time", doc = "between pictures; without it, one at the end" },
-    { name = "name", type = "string", doc = "of the pictures' folder, where a model has several views" } },
-  doc = "How the model is to be shown: the apex with its primordia, or unrolled. A run writes a picture every so often, and one " ..
+    { name = "name", type = "string", doc = "of the pictures' folder, where a model has several views" },
+    { name = "plot", type = "string", choices = { "divergence", "threshold", "field" },
+      doc = "not the apex but a plot, see phyllotaxis:plot" },
+    { name = "lines", type = "list", of = "number|table", doc = "straight lines through the plot" } },
+  doc = "How the model is to be shown: the apex with its primordia, unrolled, or as a plot. A run writes a picture every so often, and one " ..
     "at its end.",
   example = example .. [[model:view { colour = "age", from = "top", every = 0.5 }]],
   fn = function(model, given)

@@ -1,37 +1,44 @@
--- SPDX-License-Identifier: MIT
--- One inhibitor (thesis 4.3, fig. 4.6): primordia on a ring of a growing apex. Each adds exp(-b age) / distance to the field; one is born
--- where the field is below the threshold. From a lattice at a divergence angle: the Fibonacci angle here; 99.5 (Lucas), 151.14
--- (anomalous), 106.45, 77.96, and 68.75 with jugacy = 2 keep their own at this threshold. growth = 1 and profile = disk give an apex on which
--- everything is exact; profile = dome with growth = raised one like that of a plant.
+--- Phyllotaxis by one inhibition field, from the first primordium on.
+-- WHAT    primordia arise on a ring around the tip, where the inhibition by the older ones is lowest, when it falls below a
+--         threshold. The threshold rises at first: the second primordium comes opposite the first, then a spiral sets in.
+-- HOW     inhibition (4.3): each primordium adds exp(-b age) / distance. All move away from the tip with the growing apex.
+--         The time of each insertion is found, not stepped to.
+-- TRY     samples=38 (the sequence of fig. 4.4)   shape=disk   shape=cylinder   to=0.1 (distichous)   to=2 (higher order)
+-- SOURCE  R. S. Smith, PhD thesis, University of Calgary 2007, section 4.3, figs 4.1-4.4
 local tunica = require "tunica"
 
 local P = tunica.params {
-  b = { 1, "decay of the inhibition with age", unit = "1/time", min = 0 },
-  threshold = { 11.15, "below it a primordium is born", unit = "1/length", min = 0 },
-  angle = { 137.51, "divergence angle at the start", unit = "degrees" },
-  initial = { 20, "primordia at the start (a multiple of the jugacy)", min = 1 },
-  jugacy = { 1, "of the start", min = 1 },
-  samples = { 720, "places on the ring", min = 3 },
-  profile = { "disk", "profile of the apex" },
-  growth = { "constant", "its relative growth along the profile" },
-  radius = { 1, "of the ring", unit = "length", min = 0 },
-  count = { 140, "primordia in all", min = 2 },
+  shape = { "dome", "of the apex: dome, disk, hemisphere_cylinder, paraboloid, cone, or cylinder" },
+  b = { 4.8, "decay of the inhibition with age", unit = "1/time", min = 0 },
+  from = { 0.165, "threshold at the start", unit = "1/length", min = 0 },
+  to = { 0.5, "threshold in the end", unit = "1/length", min = 0 },
+  ramp = { 2.78, "time in which it rises", unit = "time", min = 1e-9 },
+  samples = { 360, "places on the ring", min = 3 },
+  primordia = { 60, "at the end", min = 2 },
 }
 
-local model = tunica.phyllotaxis {
-  apex = tunica.apex { profile = P.profile, growth = P.growth }, radius = P.radius,
-  samples = P.samples, params = P, stop = { primordia = P.count },
-}
-model:inhibition { field = function(d, age) return math.exp(-P.b * age) / d end, below = P.threshold }
-model:initial { count = P.initial, angle = P.angle, jugacy = P.jugacy }
+local options = { samples = P.samples, params = P, stop = { primordia = P.primordia } }
+if P.shape == "cylinder" then
+  options.path = function(age) return 1, -age end
+else
+  options.apex, options.radius = tunica.apex { profile = P.shape, growth = 1 }, 1
+end
+local model = tunica.phyllotaxis(options)
 
-local function pattern() return model:pattern { jugacy = P.jugacy > 1 and P.jugacy or nil } end
+model:inhibition {
+  field = function(d, age) return math.exp(-P.b * age) / d end,
+  below = function(t) return P.from + (P.to - P.from) * math.min(1, t / P.ramp) end,
+}
+model:primordium { angle = 0 }
+
+model:view { name = "top", from = "top", labels = true, parastichies = true }
+model:view { name = "side", from = "side" }
+model:view { name = "field", colour = "field", arrows = true, every = 0.25 }
+model:view { name = "lattice", lattice = true, parastichies = true, labels = true }
 model:report {
-  pattern = function() return pattern().name end,
-  angle = function() return pattern().mean end,
-  pair = function() return pattern().pair end,
-  plastochron = function() return pattern().plastochron.mean end,
+  primordia = function() return model.count end,
+  angle = function() return model:pattern().mean end,
+  pattern = function() return tostring(model:pattern()) end,
 }
-model:view { from = "top", colour = "age" }
 
 return model

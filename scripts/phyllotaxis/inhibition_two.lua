@@ -1,50 +1,58 @@
--- SPDX-License-Identifier: MIT
--- Two inhibitors (thesis 4.4, 4.5) on a cylinder: a long-range one, which primordia begin to send out only as they grow older, chooses
--- the place; a short-range one of the youngest permits it. With these values, from one primordium on: decussate.
--- change = 1.3 after 60 primordia leads to a spiral, change = 2 to bijugate (thesis fig. 4.10): the threshold then rises by this factor.
+--- Phyllotaxis by two inhibition fields: whorls and spirals from one primordium on.
+-- WHAT    as inhibition_single, but primordia begin to inhibit only some time after they have arisen, so that others can arise
+--         with them; a second, short-range inhibition keeps these apart. So come decussate and bijugate patterns, too.
+-- HOW     long range (4.4): (1 - exp(-onset age)) exp(-b_long age) / distance chooses the place. Short range (4.5):
+--         exp(-b_short age) / distance permits it. The long-range threshold rises from 0 at the start.
+-- TRY     pattern=distichous, spiro-distichous, fibonacci, lucas, bijugate, spiro-decussate   long=1 (another threshold)   jitter=2
+-- SOURCE  R. S. Smith, PhD thesis, University of Calgary 2007, section 4.4, fig. 4.9; the values are our own
 local tunica = require "tunica"
 
+-- Values that give each pattern, robustly: threshold, rise time, onset and decays.
+local patterns = {
+  distichous = { shape = "dome", long = 0.1, ramp = 0.906, onset = 1.99, b_long = 1.66, b_short = 8.28, short = 3.8 },
+  ["spiro-distichous"] = { shape = "cylinder", long = 0.22, ramp = 10, onset = 1.22, b_long = 1.13, b_short = 14.4, short = 0.933 },
+  fibonacci = { shape = "dome", long = 0.614, ramp = 1, onset = 4.28, b_long = 3.4, b_short = 4.18, short = 1.42 },
+  lucas = { shape = "dome", long = 3.76, ramp = 0.715, onset = 7.63, b_long = 0.559, b_short = 10.7, short = 1.91 },
+  decussate = { shape = "dome", long = 0.675, ramp = 4.63, onset = 0.661, b_long = 0.401, b_short = 7.76, short = 1.39 },
+  bijugate = { shape = "dome", long = 3.54, ramp = 3.53, onset = 4, b_long = 0.501, b_short = 13.3, short = 0.787 },
+  ["spiro-decussate"] = { shape = "cylinder", long = 3.498, ramp = 2.808, onset = 1.708, b_long = 0.2649, b_short = 4.174, short = 1.254 },
+}
+
 local P = tunica.params {
-  long = { 1.1418, "threshold of the long-range inhibitor", unit = "1/length", min = 0 },
-  b_long = { 0.398, "its decay with age", unit = "1/time", min = 0 },
-  onset = { 0.632, "rate at which primordia begin to send it out", unit = "1/time", min = 0 },
-  short = { 0.797, "threshold of the short-range inhibitor", unit = "1/length", min = 0 },
-  b_short = { 5.635, "its decay with age", unit = "1/time", min = 0 },
-  ramp = { 3.98, "time in which the long-range threshold rises from 0", unit = "time", min = 0 },
+  pattern = { "decussate", "whose values are taken: " .. "distichous, spiro-distichous, fibonacci, lucas, decussate, bijugate, spiro-decussate" },
+  long = { 0, "threshold of the long-range inhibition; 0: that of the pattern", unit = "1/length", min = 0 },
+  short = { 0, "threshold of the short-range inhibition; 0: that of the pattern", unit = "1/length", min = 0 },
   samples = { 360, "places on the ring", min = 3 },
-  change = { 1, "factor by which the long-range threshold changes after 60 primordia", min = 0 },
-  count = { 200, "primordia in all", min = 2 },
-  tie = { 1e-5, "fields nearer than this are equal", min = 0 },
+  jitter = { 0, "standard deviation of the samples' angles", unit = "degrees", min = 0 },
+  primordia = { 80, "at the end", min = 2 },
 }
+local values = patterns[P.pattern]
+if not values then error("there is no pattern '" .. P.pattern .. "'; there are distichous, spiro-distichous, fibonacci, lucas, decussate, " ..
+  "bijugate and spiro-decussate", 0) end
+local long, short = P.long > 0 and P.long or values.long, P.short > 0 and P.short or values.short
 
-local model = tunica.phyllotaxis {
-  path = function(age) return 1, -age end,
-  samples = P.samples, tie = P.tie, params = P, stop = { primordia = P.count },
-}
-local changed = math.huge  -- when the threshold begins to change
+local options = { samples = P.samples, params = P, jitter = { angle = P.jitter }, stop = { primordia = P.primordia } }
+if values.shape == "cylinder" then
+  options.path = function(age) return 1, -age end
+else
+  options.apex, options.radius = tunica.apex { profile = values.shape, growth = 1 }, 1
+end
+local model = tunica.phyllotaxis(options)
+
 model:inhibition {
-  field = function(d, age) return (1 - math.exp(-P.onset * age)) * math.exp(-P.b_long * age) / d end,
-  below = function(t)
-    local change = t < changed and 1 or 1 + (P.change - 1) * math.min(1, (t - changed) / 1.84)
-    return P.long * math.min(1, t / P.ramp) * change
-  end,
+  field = function(d, age) return (1 - math.exp(-values.onset * age)) * math.exp(-values.b_long * age) / d end,
+  below = function(t) return long * math.min(1, t / values.ramp) end,
 }
-model:inhibition { field = function(d, age) return math.exp(-P.b_short * age) / d end, below = P.short }
+model:inhibition { field = function(d, age) return math.exp(-values.b_short * age) / d end, below = short }
+model:primordium { angle = 0 }
 
-model:after(60, function(t) changed = t end)
-
---- The pattern of numbers first to last.
-local function pattern(first, last)
-  if model.count < last then return nil end
-  return model:pattern { first = first, last = last }
-end
-local function name(first, last)
-  return function()
-    local found = pattern(first, last)
-    return found and string.format("%s, %.1f degrees", found.name, found.mean) or "not reached"
-  end
-end
-model:report { start = name(21, 60), final = name(math.max(1, P.count - 79), P.count) }
-model:view { from = "oblique", colour = "age" }
+model:view { name = "top", from = "top", labels = true }
+model:view { name = "side", from = "side" }
+model:view { name = "lattice", lattice = true, labels = true }
+model:report {
+  primordia = function() return model.count end,
+  angle = function() return model:pattern().mean end,
+  pattern = function() return tostring(model:pattern()) end,
+}
 
 return model
