@@ -29,8 +29,8 @@ end
 op { name = "tunica.pattern", returns = "a table that prints as its description",
   args = {
     { name = "list", type = "list", required = true,
-      doc = "primordia, oldest first: angles, or tables { angle =, time =, radius = | x =, y =, z = }; the axis is y, places are "
-        .. "all of one moment" },
+      doc = "primordia, oldest first: angles, or tables { angle =, time =, radius = | x =, y =, z =, left =, right = }; the axis is "
+        .. "y, places are all of one moment; left and right: numbers of the older ones that were nearest when it arose" },
     { name = "options", type = "table",
       doc = "{ jugacy = (found if left out), first =, last = (numbers of primordia), "
         .. "expected = { angle =, jugacy =, pair = { m, n } } }" },

@@ -31,14 +31,17 @@ model:inhibition {
 }
 model:primordium { angle = 0 }
 
+--- What the last 40 are.
+local function recent() return model:pattern { first = math.max(1, model.count - 39) } end
+
 model:view { name = "top", from = "top", labels = true, parastichies = true }
 model:view { name = "side", from = "side" }
 model:view { name = "field", colour = "field", arrows = true, every = 0.25 }
 model:view { name = "lattice", lattice = true, parastichies = true, labels = true }
 model:report {
   primordia = function() return model.count end,
-  angle = function() return model:pattern().mean end,
-  pattern = function() return tostring(model:pattern()) end,
+  angle = function() return recent().mean end,
+  pattern = function() return tostring(recent()) end,
 }
 
 return model

@@ -10,11 +10,11 @@ local tunica = require "tunica"
 -- Values that give each pattern, robustly: threshold, rise time, onset and decays.
 local patterns = {
   distichous = { shape = "dome", long = 0.1, ramp = 0.906, onset = 1.99, b_long = 1.66, b_short = 8.28, short = 3.8 },
-  ["spiro-distichous"] = { shape = "cylinder", long = 0.22, ramp = 10, onset = 1.22, b_long = 1.13, b_short = 14.4, short = 0.933 },
+  ["spiro-distichous"] = { shape = "dome", long = 0.268, ramp = 3.45, onset = 2.35, b_long = 1.47, b_short = 19.3, short = 1.2 },
   fibonacci = { shape = "dome", long = 0.614, ramp = 1, onset = 4.28, b_long = 3.4, b_short = 4.18, short = 1.42 },
   lucas = { shape = "dome", long = 3.76, ramp = 0.715, onset = 7.63, b_long = 0.559, b_short = 10.7, short = 1.91 },
   decussate = { shape = "dome", long = 0.675, ramp = 4.63, onset = 0.661, b_long = 0.401, b_short = 7.76, short = 1.39 },
-  bijugate = { shape = "dome", long = 3.54, ramp = 3.53, onset = 4, b_long = 0.501, b_short = 13.3, short = 0.787 },
+  bijugate = { shape = "dome", long = 1.23, ramp = 4.16, onset = 0.615, b_long = 0.459, b_short = 7.02, short = 0.696 },
   ["spiro-decussate"] = { shape = "cylinder", long = 3.498, ramp = 2.808, onset = 1.708, b_long = 0.2649, b_short = 4.174, short = 1.254 },
 }
 
@@ -46,13 +46,16 @@ model:inhibition {
 model:inhibition { field = function(d, age) return math.exp(-values.b_short * age) / d end, below = short }
 model:primordium { angle = 0 }
 
+--- What the last 40 are.
+local function recent() return model:pattern { first = math.max(1, model.count - 39) } end
+
 model:view { name = "top", from = "top", labels = true }
 model:view { name = "side", from = "side" }
 model:view { name = "lattice", lattice = true, labels = true }
 model:report {
   primordia = function() return model.count end,
-  angle = function() return model:pattern().mean end,
-  pattern = function() return tostring(model:pattern()) end,
+  angle = function() return recent().mean end,
+  pattern = function() return tostring(recent()) end,
 }
 
 return model

@@ -85,6 +85,29 @@ Vec2 Inhibition::track(double age) const {
   return {std::min(std::fabs(place.x()), far), std::clamp(place.y(), -far, far)};
 }
 
+std::pair<Index, Index> Inhibition::neighbours(size_t primordium) const {
+  constexpr double straight = 1e-6;  // radians: above it, or opposite
+  constexpr size_t reach = 512;      // how many older primordia are looked at
+  const Primordium& own = primordia_[primordium];
+  const Vec2 start = track(0);
+  double nearest[2] = {INFINITY, INFINITY};
+  Index found[2] = {none, none};
+  for (size_t k = primordium; k-- > 0 && primordium - k <= reach;) {
+    const Primordium& other = primordia_[k];
+    if (!(other.birth < own.birth)) continue;  // of the same whorl
+    const double side = std::remainder(other.angle - own.angle, 2 * std::numbers::pi);
+    if (std::fabs(side) < straight) continue;
+    const Vec2 place = track(own.birth - other.birth);
+    const double distance = place.x() * place.x() + start.x() * start.x() - 2 * place.x() * start.x() * std::cos(side) +
+                            (place.y() - start.y()) * (place.y() - start.y());
+    const bool opposite = std::fabs(side) > std::numbers::pi - straight;
+    for (const int s : {0, 1})
+      if ((opposite || (side > 0) == (s == 1)) && distance < nearest[s])
+        nearest[s] = distance, found[s] = static_cast<Index>(k);
+  }
+  return {found[0], found[1]};
+}
+
 double Inhibition::threshold(size_t k, double t) const {
   const double value = fields_[k].threshold(t);
   if (!std::isfinite(value))

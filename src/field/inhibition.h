@@ -13,6 +13,7 @@
 #include "base/cancel.h"
 #include "field/field_rule.h"
 #include "field/pair_kernels.h"
+#include "tissue/tissue.h"
 
 namespace tunica {
 
@@ -98,6 +99,9 @@ class Inhibition {
   /// Whether old primordia were left out only because there were too many.
   bool overflowed() const { return overflowed_; }
   Vec2 place(const Primordium& p) const { return track(time_ - p.birth); }
+  /// The older primordia nearest to one when it arose, in space, on either side of it (at a falling and at a rising
+  /// angle): their places in primordia(), or none. Parastichies run through them.
+  std::pair<Index, Index> neighbours(size_t primordium) const;
 
   /// Field k now at a place (angle, distance from the axis, height).
   double value(size_t k, double angle, const Vec2& place);

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "field/sequence.h"
@@ -16,6 +18,9 @@ struct PatternItem {
   double angle = 0;
   double time = unknown;                         ///< of birth
   Vec3 place = Vec3(unknown, unknown, unknown);  ///< all at one moment; the axis is y
+  /// The older ones nearest on either side when it arose, by their places in the list, where that is known; none:
+  /// beyond the list.
+  std::optional<std::pair<Index, Index>> neighbours;
 };
 
 /// What is said of a list of numbers. Standard deviations here are of the population.

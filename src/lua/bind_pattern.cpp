@@ -101,11 +101,21 @@ PatternItem item_at_top(lua_State* L, int number) {
   return item;
 }
 
+/// The numbers under `left` and `right`, as places in a list that begins with number `first`.
+void add_neighbours(lua_State* L, PatternItem& item, int number, int first) {
+  if (lua_type(L, -1) != LUA_TTABLE) return;
+  const double left = number_of(L, "left", number), right = number_of(L, "right", number);
+  if (std::isnan(left) && std::isnan(right)) return;
+  const auto place = [&](double n) { return n >= first && n < number ? static_cast<Index>(n) - first : none; };
+  item.neighbours = {place(left), place(right)};
+}
+
 std::vector<PatternItem> items_at(lua_State* L, int at, int first, int last) {
   std::vector<PatternItem> items;
   for (int i = first; i <= last; ++i) {
     lua_rawgeti(L, at, i);
     items.push_back(item_at_top(L, i));
+    add_neighbours(L, items.back(), i, first);
     lua_pop(L, 1);
   }
   return items;

@@ -97,6 +97,19 @@ int state(lua_State* L) {
   });
 }
 
+/// inhibition_neighbours(engine, n) -> numbers of the older primordia that were nearest to the n-th when it arose, on
+/// either side; nil where there is none
+int neighbours(lua_State* L) {
+  return guard(L, [&] {
+    const Inhibition& engine = engine_at(L, 1);
+    const Entering entering(L);
+    const auto n = check_integer(L, 2, "a number", 1, static_cast<int64_t>(engine.primordia().size()));
+    const auto [one, other] = engine.neighbours(static_cast<size_t>(n - 1));
+    for (const Index found : {one, other}) found == none ? lua_pushnil(L) : lua_pushinteger(L, found + 1);
+    return 2;
+  });
+}
+
 /// inhibition_primordia(engine, first) -> list of { angle, birth, initial, x, y } from the first-th on
 int primordia(lua_State* L) {
   return guard(L, [&] {
@@ -192,6 +205,7 @@ void register_phyllotaxis_course(lua_State* L) {
                                 {"inhibition_show", show},
                                 {"inhibition_state", state},
                                 {"inhibition_primordia", primordia},
+                                {"inhibition_neighbours", neighbours},
                                 {"inhibition_value", value},
                                 {"inhibition_ring", ring},
                                 {"inhibition_minimum", minimum},

@@ -81,6 +81,7 @@ op { name = "phyllotaxis:pattern", kind = "named", returns = "what tunica.patter
     local my, list = inside[model], model:primordia()
     local first = o.first or 1
     while not o.first and list[first] and list[first].initial and #list - first > 1 do first = first + 1 end
+    for i = first, math.min(o.last or #list, #list) do list[i].left, list[i].right = core.inhibition_neighbours(my.engine, i) end
     return registry.module.pattern(list, { first = first, last = o.last, jugacy = o.jugacy or my.jugacy > 1 and my.jugacy or nil,
       expected = o.expected })
   end }
