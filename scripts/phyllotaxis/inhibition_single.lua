@@ -4,6 +4,7 @@
 -- HOW     inhibition (4.3): each primordium adds exp(-b age) / distance. All move away from the tip with the growing apex.
 --         The time of each insertion is found, not stepped to.
 -- TRY     samples=38 (the sequence of fig. 4.4)   shape=disk   shape=cylinder   to=0.1 (distichous)   to=2 (higher order)
+--         jugacy=2 shape=disk b=1 to=2 (spiro-decussate; to=0.9 decussate, to=3 bijugate)
 -- SOURCE  R. S. Smith, PhD thesis, University of Calgary 2007, section 4.3, figs 4.1-4.4
 local tunica = require "tunica"
 
@@ -13,11 +14,12 @@ local P = tunica.params {
   from = { 0.165, "threshold at the start", unit = "1/length", min = 0 },
   to = { 0.5, "threshold in the end", unit = "1/length", min = 0 },
   ramp = { 2.78, "time in which it rises", unit = "time", min = 1e-9 },
+  jugacy = { 1, "primordia at once, evenly spaced: imposed", min = 1 },
   samples = { 360, "places on the ring", min = 3 },
   primordia = { 60, "at the end", min = 2 },
 }
 
-local options = { samples = P.samples, params = P, stop = { primordia = P.primordia } }
+local options = { samples = P.samples, jugacy = P.jugacy, params = P, stop = { primordia = P.primordia } }
 if P.shape == "cylinder" then
   options.path = function(age) return 1, -age end
 else
@@ -29,7 +31,11 @@ model:inhibition {
   field = function(d, age) return math.exp(-P.b * age) / d end,
   below = function(t) return P.from + (P.to - P.from) * math.min(1, t / P.ramp) end,
 }
-model:primordium { angle = 0 }
+if P.jugacy > 1 then
+  model:initial { count = P.jugacy, angle = 180 / P.jugacy }
+else
+  model:primordium { angle = 0 }
+end
 
 --- What the last 40 are.
 local function recent() return model:pattern { first = math.max(1, model.count - 39) } end

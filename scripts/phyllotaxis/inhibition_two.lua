@@ -3,23 +3,22 @@
 --         with them; a second, short-range inhibition keeps these apart. So come decussate and bijugate patterns, too.
 -- HOW     long range (4.4): (1 - exp(-onset age)) exp(-b_long age) / distance chooses the place. Short range (4.5):
 --         exp(-b_short age) / distance permits it. The long-range threshold rises from 0 at the start.
--- TRY     pattern=distichous, spiro-distichous, fibonacci, lucas, bijugate, spiro-decussate   long=1 (another threshold)   jitter=2
+-- TRY     pattern=distichous, spiro-distichous, fibonacci, lucas, bijugate   long=1 (another threshold)   jitter=2
 -- SOURCE  R. S. Smith, PhD thesis, University of Calgary 2007, section 4.4, fig. 4.9; the values are our own
 local tunica = require "tunica"
 
 -- Values that give each pattern, robustly: threshold, rise time, onset and decays.
 local patterns = {
-  distichous = { shape = "dome", long = 0.1, ramp = 0.906, onset = 1.99, b_long = 1.66, b_short = 8.28, short = 3.8 },
-  ["spiro-distichous"] = { shape = "dome", long = 0.268, ramp = 3.45, onset = 2.35, b_long = 1.47, b_short = 19.3, short = 1.2 },
-  fibonacci = { shape = "dome", long = 0.614, ramp = 1, onset = 4.28, b_long = 3.4, b_short = 4.18, short = 1.42 },
-  lucas = { shape = "dome", long = 3.76, ramp = 0.715, onset = 7.63, b_long = 0.559, b_short = 10.7, short = 1.91 },
-  decussate = { shape = "dome", long = 0.675, ramp = 4.63, onset = 0.661, b_long = 0.401, b_short = 7.76, short = 1.39 },
-  bijugate = { shape = "dome", long = 1.23, ramp = 4.16, onset = 0.615, b_long = 0.459, b_short = 7.02, short = 0.696 },
-  ["spiro-decussate"] = { shape = "cylinder", long = 3.498, ramp = 2.808, onset = 1.708, b_long = 0.2649, b_short = 4.174, short = 1.254 },
+  distichous = { long = 0.1, ramp = 0.906, onset = 1.99, b_long = 1.66, b_short = 8.28, short = 3.8 },
+  ["spiro-distichous"] = { long = 0.268, ramp = 3.45, onset = 2.35, b_long = 1.47, b_short = 19.3, short = 1.2 },
+  fibonacci = { long = 0.614, ramp = 1, onset = 4.28, b_long = 3.4, b_short = 4.18, short = 1.42 },
+  lucas = { long = 3.76, ramp = 0.715, onset = 7.63, b_long = 0.559, b_short = 10.7, short = 1.91 },
+  decussate = { long = 0.675, ramp = 4.63, onset = 0.661, b_long = 0.401, b_short = 7.76, short = 1.39 },
+  bijugate = { long = 1.23, ramp = 4.16, onset = 0.615, b_long = 0.459, b_short = 7.02, short = 0.696 },
 }
 
 local P = tunica.params {
-  pattern = { "decussate", "whose values are taken: " .. "distichous, spiro-distichous, fibonacci, lucas, decussate, bijugate, spiro-decussate" },
+  pattern = { "decussate", "whose values are taken: distichous, spiro-distichous, fibonacci, lucas, decussate or bijugate" },
   long = { 0, "threshold of the long-range inhibition; 0: that of the pattern", unit = "1/length", min = 0 },
   short = { 0, "threshold of the short-range inhibition; 0: that of the pattern", unit = "1/length", min = 0 },
   samples = { 360, "places on the ring", min = 3 },
@@ -27,17 +26,13 @@ local P = tunica.params {
   primordia = { 80, "at the end", min = 2 },
 }
 local values = patterns[P.pattern]
-if not values then error("there is no pattern '" .. P.pattern .. "'; there are distichous, spiro-distichous, fibonacci, lucas, decussate, " ..
-  "bijugate and spiro-decussate", 0) end
+if not values then error("there is no pattern '" .. P.pattern .. "'; there are distichous, spiro-distichous, fibonacci, lucas, decussate " ..
+  "and bijugate", 0) end
 local long, short = P.long > 0 and P.long or values.long, P.short > 0 and P.short or values.short
 
-local options = { samples = P.samples, params = P, jitter = { angle = P.jitter }, stop = { primordia = P.primordia } }
-if values.shape == "cylinder" then
-  options.path = function(age) return 1, -age end
-else
-  options.apex, options.radius = tunica.apex { profile = values.shape, growth = 1 }, 1
-end
-local model = tunica.phyllotaxis(options)
+local apex = tunica.apex { profile = "dome", growth = 1 }
+local model = tunica.phyllotaxis { apex = apex, radius = 1, samples = P.samples, params = P, jitter = { angle = P.jitter },
+  stop = { primordia = P.primordia } }
 
 model:inhibition {
   field = function(d, age) return (1 - math.exp(-values.onset * age)) * math.exp(-values.b_long * age) / d end,

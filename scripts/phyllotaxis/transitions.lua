@@ -19,7 +19,7 @@ local changes = {
   ["whorled-fibonacci"] = { shape = "dome", long = 0.868, initial = { 24, 60, 3 }, onset = 0.451, b_long = 0.606, b_short = 7.12, short = 1.03,
     after = 54, factor = 3.57, during = 1.85, jitter = 0.3 },
   ["whorled-lucas"] = { shape = "dome", long = 2.57, initial = { 24, 60, 3 }, onset = 2.5, b_long = 0.539, b_short = 3.16, short = 1.94,
-    after = 54, factor = 1.5, during = 1.81, jitter = 0 },
+    after = 54, factor = 1.5, during = 1.65, jitter = 0 },
   ["whorled-trijugate"] = { shape = "dome", long = 1.45, initial = { 24, 60, 3 }, onset = 4.19, b_long = 2.31, b_short = 27.2, short = 1.24,
     after = 54, factor = 2.07, during = 1.97, jitter = 0 },
   ["bijugate-fibonacci"] = { shape = "dome", long = 1.8, initial = { 24, 68.75, 2 }, onset = 1.97, b_long = 1.68, b_short = 6.3, short = 1.51,
