@@ -102,7 +102,7 @@ local function ring_of(my, arc)
   local order = {}
   for i = 1, #values do order[i] = { math.deg(angles[i]) % 360, values[i] } end
   table.sort(order, function(a, b) return a[1] < b[1] end)  -- jitter may have moved one past another
-  local ring = { arc = arc, values = {}, angles = {}, chosen = math.deg((core.inhibition_minimum(my.engine))) }
+  local ring = { arc = arc, radius = my.ring.radius, values = {}, angles = {}, chosen = math.deg((core.inhibition_minimum(my.engine))) }
   for _, each in ipairs(order) do
     if each[1] ~= ring.angles[#ring.angles] then
       ring.angles[#ring.angles + 1] = each[1]
@@ -112,10 +112,10 @@ local function ring_of(my, arc)
   return ring
 end
 
---- The contact pair and jugacy of the primordia, where there are enough of them to tell. Else nothing: a run must not end
--- because its first pictures have no pattern yet.
-local function read_pattern(list, data)
-  local ok, pattern = pcall(core.read_pattern, list, {})
+--- The contact pair and jugacy of the latest primordia, where there are enough of them to tell. Else nothing: a run must not
+-- end because its first pictures have no pattern yet.
+local function read_pattern(model, data)
+  local ok, pattern = pcall(model.pattern, model, { first = math.max(1, model.count - 39) })
   local pair = ok and pattern.pair
   if not pair or pair[1] % pattern.jugacy ~= 0 or pair[2] % pattern.jugacy ~= 0 then return end
   data.parastichies, data.jugacy = { pair[1], pair[2] }, pattern.jugacy
@@ -134,16 +134,18 @@ local function data_of(model, given)
   local points = my.apex and profile_of_apex(my) or profile_of_path(my, core.inhibition_state(my.engine), oldest)
   local lengths = lengths_of(points)
   local data = { profile = points, primordia = {}, jugacy = 1 }
-  for i, p in ipairs(list) do
+  for _, p in ipairs(list) do
     local arc = arc_of(points, lengths, p.radius, p.y)
-    data.primordia[i] = { theta = p.angle, arc = arc, age = p.age, number = p.number, value = p.time }
+    if arc <= lengths[#lengths] then  -- older ones are out of sight
+      data.primordia[#data.primordia + 1] = { theta = p.angle, arc = arc, age = p.age, number = p.number, value = p.time }
+    end
   end
   data.ring = ring_of(my, arc_of(points, lengths, my.ring.radius, my.ring.height))
   data.field = function(theta, arc)
     local x, y = point_at(points, lengths, arc)
     return core.inhibition_value(my.engine, 1, math.rad(theta), x, y)
   end
-  if given.parastichies == true then read_pattern(list, data) end
+  if given.parastichies == true then read_pattern(model, data) end
   if type(given.parastichies) == "table" then
     local common = divisor(given.parastichies[1], given.parastichies[2])
     -- (6, 6) may be whorls of six or of three: as the model has them.
@@ -175,6 +177,13 @@ local function plotted(model, given)
   return bytes, number(17), number(21)
 end
 
+--- As far as the primordia go, but not where those near the ring would be small.
+local function nearby(data)
+  local reach = 1.4 * data.ring.arc
+  for _, p in ipairs(data.primordia) do reach = math.max(reach, p.arc + 0.5 * data.ring.radius) end
+  return math.min(reach, data.ring.arc + 4 * data.ring.radius)
+end
+
 local others = { "every", "name", "file", "plot", "lines" }
 table.insert(view.others, {
   is = phyllotaxis.is_phyllotaxis,
@@ -186,6 +195,7 @@ table.insert(view.others, {
     options.title = title
     local data = data_of(model, given)
     options.parastichies = data.parastichies
+    if not given.lattice then options.reach = given.reach or nearby(data) end
     return apex_view.draw(data, options, texts, others)
   end })
 
