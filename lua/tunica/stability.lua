@@ -16,7 +16,6 @@ local needed = 0.01                             -- how near two references must 
 local most_strides = 20
 local fewest_steps = 10                         -- a longer step is not tried: instability could not show
 local too_large = 100                           -- times the greatest value at the start and the end: no longer bounded
-local checkerboard = 0.45                       -- index above which cells alternate
 -- Where the step times the spectral radius may be, at most, for rates whose derivative has negative real eigenvalues.
 local limits = { euler = 2, heun = 2, rk4 = 2.785 }
 
@@ -50,9 +49,9 @@ local function try(self, method, by, setting)
   if size > too_large * self.size then
     trial.bounded, trial.why = false, string.format("%s is %s times what it should be", self.quantity.name, study.short(size / self.size))
   end
-  local alternation = self.model.tissue:checkerboard(self.quantity.name)  -- after a failure, of the last good state
-  if alternation > checkerboard then
-    trial.why = (trial.why and trial.why .. "; " or "") .. string.format("checkerboard (index %.2f)", alternation)
+  local index, alternates = self.model.tissue:checkerboard(self.quantity.name)  -- after a failure, of the last good state
+  if alternates then
+    trial.why = (trial.why and trial.why .. "; " or "") .. string.format("checkerboard (index %.2f)", index)
   elseif trial.bounded then
     trial.why = pattern.difference(self.model.tissue, pattern.maxima(self.model.tissue, self.quantity.name), self.reference.values.maxima)
     trial.pattern = trial.why == nil

@@ -311,9 +311,10 @@ local above = { name = "above", type = "number", doc = "only higher ones; the me
 op { name = "tissue:count_peaks", args = { column, above }, returns = "a whole number", fn = core.count_peaks,
   doc = "How many cells have more than each of their neighbours, and more than `above`.",
   example = setup .. "print(tissue:count_peaks 'auxin')" }
-op { name = "tissue:checkerboard", args = { column }, returns = "a number from -1 to 1", fn = core.checkerboard,
-  doc = "How far values go up and down from cell to cell: 1 for a checkerboard on a grid (at most 0.5 on hexagons), some 0.4 " ..
-    "for noise, negative for anything smooth. Above 0.45 a time step was too long, most likely.",
+op { name = "tissue:checkerboard", args = { column }, fn = core.checkerboard,
+  returns = "a number from -1 to 1, and whether it is beyond what noise gives",
+  doc = "How far values go up and down from cell to cell: 1 for a checkerboard on a grid (at most 0.5 on hexagons), 0.2 to 0.7 for " ..
+    "noise, negative for anything smooth. Beyond noise it says that a time step was too long, most likely.",
   example = setup .. "print(tissue:checkerboard 'auxin')" }
 op { name = "tissue:peaks", args = { column, above }, fn = core.peaks,
   returns = "a list of cells, the mean distance from a peak to the next (0 without geometry), its coefficient of variation",

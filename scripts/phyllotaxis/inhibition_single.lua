@@ -40,7 +40,7 @@ end
 --- What the last 40 are.
 local function recent() return model:pattern { first = math.max(1, model.count - 39) } end
 
-model:view { name = "top", from = "top", labels = true, parastichies = true }
+model:view { name = "top", from = "top", labels = true }
 model:view { name = "side", from = "side" }
 model:view { name = "field", colour = "field", arrows = true, every = 0.25 }
 model:view { name = "lattice", lattice = true, parastichies = true, labels = true }

@@ -163,13 +163,15 @@ int peaks(lua_State* L) {
   });
 }
 
-/// checkerboard(tissue, column)
+/// checkerboard(tissue, column) -> index, whether it is beyond that of noise
 int checkerboard_of(lua_State* L) {
   return guard(L, [&] {
     Tissue& tissue = tissue_at(L, 1);
-    lua_pushnumber(L,
-                   checkerboard_index(tissue, tissue.column(Kind::cell, check_string(L, 2, "a column")).values.data()));
-    return 1;
+    const Column& column = tissue.column(Kind::cell, check_string(L, 2, "a column"));
+    const double index = checkerboard_index(tissue, column.values.data());
+    lua_pushnumber(L, index);
+    lua_pushboolean(L, alternates(tissue, index));
+    return 2;
   });
 }
 

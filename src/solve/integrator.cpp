@@ -233,7 +233,9 @@ std::string Integrator::alternation(const Watch::Symptom& symptom) const {
   std::vector<double> change(s.count);
   for (Index c = 0; c < s.count; ++c) change[c] = y_new_.data()[s.offset + c] - y_.data()[s.offset + c];
   const double index = checkerboard_index(system_->tissue(), change.data());
-  return index < checkerboard ? "" : fmt::format(", up and down from cell to cell (checkerboard index {:.2f})", index);
+  return !alternates(system_->tissue(), index)
+             ? ""
+             : fmt::format(", up and down from cell to cell (checkerboard index {:.2f})", index);
 }
 
 void Integrator::refuse(const Watch::Symptom& symptom, double time, const std::string& advice) {

@@ -162,4 +162,11 @@ double checkerboard_index(const Tissue& tissue, const double* values) {
   return squares > 0 && std::isfinite(squares) ? -2 * product / squares : 0;
 }
 
+bool alternates(const Tissue& tissue, double index) {
+  Index pairs = 0;
+  for (Index wall = 0; wall < tissue.walls(); ++wall) pairs += tissue.wall_side(wall, 1) != none;
+  const double neighbours = 2.0 * pairs / std::max<Index>(1, tissue.cells());
+  return index > std::min(0.9, 2.7 / (neighbours + 1));  // noise gives 2 / (neighbours + 1), or less
+}
+
 }  // namespace tunica

@@ -124,7 +124,8 @@ TEST(Checkerboard, IsOneForAlternationAndNegativeForWhatIsSmooth) {
     return uniform({.seed = 3, .cell = static_cast<uint64_t>(x), .step = static_cast<uint32_t>(y)});
   });
   EXPECT_GT(noise, .2);
-  EXPECT_LT(noise, checkerboard);
+  EXPECT_FALSE(alternates(squares, noise));
+  EXPECT_TRUE(alternates(squares, .9));
   EXPECT_EQ(fill([](int x, int y) { return x + y == 5 ? NAN : 1.0; }), 0);
 }
 
