@@ -3,7 +3,8 @@
 --         threshold. The threshold rises at first: the second primordium comes opposite the first, then a spiral sets in.
 -- HOW     inhibition (4.3): each primordium adds exp(-b age) / distance. All move away from the tip with the growing apex.
 --         The time of each insertion is found, not stepped to.
--- TRY     samples=38 (the sequence of fig. 4.4)   shape=disk   shape=cylinder   to=0.1 (distichous)   to=2 (higher order)
+-- TRY     samples=38 (the sequence of fig. 4.4)   shape=disk   shape=cylinder   to=2 (higher order)
+--         shape=disk b=0.5 to=0.35 (distichous)
 --         jugacy=2 shape=disk b=1 to=2 (spiro-decussate; to=0.9 decussate, to=3 bijugate)
 -- SOURCE  R. S. Smith, PhD thesis, University of Calgary 2007, section 4.3, figs 4.1-4.4
 local tunica = require "tunica"

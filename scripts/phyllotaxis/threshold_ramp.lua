@@ -9,7 +9,7 @@ local tunica = require "tunica"
 
 local P = tunica.params {
   b = { 0.5, "decay of the inhibition with age", unit = "1/time", min = 0 },
-  from = { 0.3, "threshold at the start", unit = "1/length", min = 1e-9 },
+  from = { 0.15, "threshold at the start", unit = "1/length", min = 1e-9 },
   to = { 6, "threshold in the end", unit = "1/length", min = 1e-9 },
   ramp = { 150, "time in which it rises", unit = "time", min = 1e-9 },
   samples = { 720, "places on the ring", min = 3 },

@@ -20,7 +20,7 @@ for shape in dome disk hemisphere_cylinder paraboloid cone cylinder; do
   named pattern "Fibonacci spiral"
   between angle 136 145
 done
-run inhibition_single to=0.1
+run inhibition_single shape=disk b=0.5 to=0.35
 named pattern distichous
 run inhibition_single jugacy=2 shape=disk b=1 to=0.9 samples=720
 named pattern decussate
@@ -98,18 +98,17 @@ run transitions jitter=0 # the control: what is symmetric stays so
 named after decussate
 
 # Fig. 4.3: two rows, then one sudden step, then down to the golden angle.
-run threshold_ramp
 "$tunica" phyllotaxis/threshold_ramp -q --no-frames --out ramp >/dev/null
-awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
+awk -F, '/^#/ { next } !n { n = 1; for (i = 1; i <= NF; ++i) at[$i] = i; next }
   { thr = $at["threshold"]; angle = $at["angle"]; if (angle == "") next }
-  thr > .32 && thr < .385 && (angle < 179.5 || angle > 180.5) { print "at", thr, angle; bad = 1 }
-  thr > .47 && thr < .56 && (angle < 140 || angle > 152) { print "at", thr, angle; bad = 1 }
+  thr > .16 && thr < .385 && (angle < 179.5 || angle > 180.5) { print "at", thr, angle; bad = 1 }
+  thr > .5 && thr < .56 && (angle < 140 || angle > 152) { print "at", thr, angle; bad = 1 }
   thr > .8 && thr < 5.9 && (angle < 136.5 || angle > 142.5) { print "at", thr, angle; bad = 1 }
   { n++ } END { exit bad || n < 100 }' ramp/series.csv >wrong.txt || { wrong "threshold_ramp:"; cat wrong.txt; }
 
 # Table 4.1: the order of the thesis, each within 15 % of the reference; all kept at 128.
 code 0 "$tunica" phyllotaxis/table_4_1 samples=360
-awk 'NR > 1 { for (i = 1; i <= NF; ++i) if ($i ~ /^[0-9.]+$/ && $i + 0 > 0) last3[i] = $i; t = $(NF - 2); print t; if ($NF != "kept") exit 1 }' out.txt >minima.txt || wrong "table 4.1: not all are kept at 128"
+awk 'NR > 1 { print $(NF - 2); if ($NF != "kept") exit 1 }' out.txt >minima.txt || wrong "table 4.1: not all are kept at 128"
 paste minima.txt <(printf '%s\n' 4.2 22 28.7 37.5 69.7 115) | awk '
   { if ($1 < .85 * $2 || $1 > 1.15 * $2 || $1 <= before) { print; bad = 1 } before = $1 } END { exit bad || NR != 6 }' ||
   { wrong "table 4.1"; cat out.txt; }
