@@ -243,7 +243,7 @@ void Integrator::refuse(const Watch::Symptom& symptom, double time, const std::s
   const Id id = system_->tissue().id(s.kind, symptom.element);
   const std::string kind = symptom.kind;
   const std::string what = kind == "oscillation" ? fmt::format("{} swings (now {:.6g})", s.name, symptom.value)
-                           : kind == "step size" || std::isfinite(symptom.value) && kind == "not finite"
+                           : kind == "step size" || (std::isfinite(symptom.value) && kind == "not finite")
                                ? fmt::format("{} (now {:.6g})", s.name, symptom.value)
                                : fmt::format("{} became {:.6g}", s.name, symptom.value);
   throw StepFailed({kind, time, s.name, s.kind, id, symptom.value,

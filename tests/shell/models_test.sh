@@ -84,5 +84,12 @@ short numerics/gradient_line 20
 short numerics/activator_inhibitor 2
 short numerics/brusselator 1
 short numerics/gray_scott 10
+short phyllotaxis/inhibition_single 3
+short phyllotaxis/inhibition_two 6 pattern=bijugate
+short phyllotaxis/transitions 30
+short phyllotaxis/noise 10
+short phyllotaxis/threshold_ramp 20
+short phyllotaxis/low_resolution 5
+short phyllotaxis/arabidopsis_start 2
 
 finish
