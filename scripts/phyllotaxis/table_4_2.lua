@@ -60,7 +60,7 @@ for i, row in ipairs(patterns) do
     judged.lenient and (math.abs(p.mean - angle) <= 1 and "yes, near" or "yes") or "no: " .. judged.why))
   if P.page ~= "" then
     pictures[i] = os.tmpname() .. ".png"
-    model:picture { pictures[i], from = "top", size = 300, legend = false, title = false, reach = 6 }
+    model:picture { pictures[i], from = "oblique", size = { 300, 400 }, legend = false, title = false, reach = 4.5 }
     captions[i] = string.format("%s %.1f", name, p.mean)
   end
 end
