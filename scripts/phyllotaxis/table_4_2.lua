@@ -4,16 +4,17 @@
 -- HOW     two inhibitors (4.4, 4.5) on a dome that is a B-spline. The primordia at the start are a lattice at the limit angle, at the plastochron
 --         at which the next one is due. Judged: the second half. Kept: the mean angle is in the allowable interval of the parastichies
 --         and steady, and whorls are even. Near: also within a degree of the limit angle.
--- TRY     samples=480   long=4.3   page= (no picture)   shape=cylinder (with its own values)
+-- TRY     samples=480   long=4.3   page= (no picture)   shape=cylinder
 -- SOURCE  R. S. Smith, PhD thesis, University of Calgary 2007, section 4.4.2, table 4.2, fig. 4.12; the values are our own
 local tunica = require "tunica"
 
 local P = tunica.params {
-  long = { 4.57, "threshold of the long-range inhibition", unit = "1/length", min = 0 },
-  b_long = { 3.62, "its decay with age", unit = "1/time", min = 0 },
-  onset = { 4.59, "rate at which primordia begin to send it out", unit = "1/time", min = 0 },
-  short = { 9.91, "threshold of the short-range inhibition", unit = "1/length", min = 0 },
-  b_short = { 23.7, "its decay with age", unit = "1/time", min = 0 },
+  shape = { "dome", "of the apex: dome, or cylinder" },
+  long = { 0, "threshold of the long-range inhibition; 0: that of the shape, as below", unit = "1/length", min = 0 },
+  b_long = { 0, "its decay with age", unit = "1/time", min = 0 },
+  onset = { 0, "rate at which primordia begin to send it out", unit = "1/time", min = 0 },
+  short = { 0, "threshold of the short-range inhibition", unit = "1/length", min = 0 },
+  b_short = { 0, "its decay with age", unit = "1/time", min = 0 },
   samples = { 720, "places on the ring: a multiple of 240, so that every whorl fits", min = 3 },
   page = { "table_4_2.png", "picture of all; empty: none" },
 }
@@ -31,11 +32,19 @@ local patterns = {
   { "whorls of 10", 2, 10, 18, "(10,10)" },
 }
 
-local apex = tunica.apex { profile = "dome", growth = 1 }
+local shapes = {
+  dome = { long = 4.57, b_long = 3.62, onset = 4.59, short = 9.91, b_short = 23.7, apex = tunica.apex { profile = "dome", growth = 1 }, radius = 1 },
+  cylinder = { long = 5.4011, b_long = 3.254, onset = 4.858, short = 10.449, b_short = 28.174, path = function(age) return 1, -age end },
+}
+local shape = shapes[P.shape] or error("there is no shape '" .. P.shape .. "'; there are dome and cylinder", 0)
+for _, name in ipairs { "long", "b_long", "onset", "short", "b_short" } do
+  if P[name] == 0 then P[name] = shape[name] end
+end
 
 local function model_of(initial, jugacy, angle)
   local total = math.max(2 * initial + math.max(10, 2 * jugacy), initial + 30)
-  local model = tunica.phyllotaxis { apex = apex, radius = 1, samples = P.samples, params = P, tolerance = 0.01, stop = { primordia = total } }
+  local model = tunica.phyllotaxis { apex = shape.apex, radius = shape.radius, path = shape.path, samples = P.samples, params = P,
+    tolerance = 0.01, stop = { primordia = total } }
   model:inhibition {
     field = function(d, age) return (1 - math.exp(-P.onset * age)) * math.exp(-P.b_long * age) / d end,
     below = P.long,
