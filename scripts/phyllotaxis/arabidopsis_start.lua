@@ -1,8 +1,8 @@
 --- The first leaves of Arabidopsis: from the cotyledons to the spiral.
--- WHAT    with 38 places on the ring, as many as there are cells around the apex, the divergence angles are 180, 114, 161, 133,
---         142, 142 ... degrees: within the standard error of those measured in the plant.
--- HOW     one inhibitor (4.3) whose threshold rises quickly at the start, as in inhibition_single. The first primordium is at angle 0;
---         which of two equal minima the third takes is drawn, and decides the hand of the spiral.
+-- WHAT    with 38 places on the ring, as many as there are cells around the apex, the divergence angles are 180, 114, 161,
+--         133, 142, 142 ... degrees: within the standard error of those measured in the plant.
+-- HOW     one inhibitor (4.3) whose threshold rises quickly at the start, as in inhibition_single. The first primordium is at
+--         angle 0; which of two equal minima the third takes is drawn, and decides the hand of the spiral.
 -- TRY     --seed 2 (the other hand)   shape=disk   shape=cylinder   samples=360 (as if space were continuous)   to=0.8
 -- SOURCE  R. S. Smith, PhD thesis, University of Calgary 2007, section 4.3.1, figs 4.4 and 4.5
 local tunica = require "tunica"

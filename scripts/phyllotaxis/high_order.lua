@@ -1,7 +1,8 @@
 --- A sunflower's order: (89, 144) parastichies, kept.
--- WHAT    from 250 primordia at the Fibonacci angle, 300 more arise at 137.506 degrees each; 89 spirals run one way, 144 the other.
--- HOW     one inhibitor (4.3) with a steep decay on a flat apex; the divergence angles possible for (89, 144) are 137.5000 to 137.5281,
---         so the places on the ring must be near enough to each other: 2880 are, 1440 are not for long.
+-- WHAT    from 250 primordia at the Fibonacci angle, 300 more arise at 137.506 degrees each; 89 spirals run one way, 144 the
+--         other.
+-- HOW     one inhibitor (4.3) with a steep decay on a flat apex; the divergence angles possible for (89, 144) are 137.5000 to
+--         137.5281, so the places on the ring must be near enough to each other: 2880 are, 1440 are not for long.
 -- TRY     samples=1440 (order is lost after some 130)   samples=5760
 -- SOURCE  R. S. Smith, PhD thesis, University of Calgary 2007, section 4.3.2; the values are our own
 local tunica = require "tunica"

@@ -1,6 +1,6 @@
 --- Phyllotaxis by two inhibition fields: whorls and spirals from one primordium on.
--- WHAT    as inhibition_single, but primordia begin to inhibit only some time after they have arisen, so that others can arise
---         with them; a second, short-range inhibition keeps these apart. So come decussate and bijugate patterns, too.
+-- WHAT    as inhibition_single, but primordia begin to inhibit only some time after they have arisen, so that others can
+--         arise with them; a second, short-range inhibition keeps these apart. So come decussate and bijugate patterns, too.
 -- HOW     long range (4.4): (1 - exp(-onset age)) exp(-b_long age) / distance chooses the place. Short range (4.5):
 --         exp(-b_short age) / distance permits it. The long-range threshold rises from 0 at the start.
 -- TRY     pattern=distichous, spiro-distichous, fibonacci, lucas, bijugate   long=1 (another threshold)   jitter=2

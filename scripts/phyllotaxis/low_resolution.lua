@@ -1,6 +1,6 @@
 --- Nineteen places on the ring, and still a spiral.
--- WHAT    neither 7 nor 8 steps of 360/19 degrees (132.6, 151.6) lies within the interval 135 to 144 in which (5, 8) parastichies are
---         possible. The primordia take 8, 7, 7, 8, 7, 7 ... steps: 138.95 degrees on average.
+-- WHAT    neither 7 nor 8 steps of 360/19 degrees (132.6, 151.6) lies within the interval 135 to 144 in which (5, 8)
+--         parastichies are possible. The primordia take 8, 7, 7, 8, 7, 7 ... steps: 138.95 degrees on average.
 -- HOW     one inhibitor (4.3) whose threshold rises at the start.
 -- TRY     samples=20   samples=38   samples=1440
 -- SOURCE  R. S. Smith, PhD thesis, University of Calgary 2007, section 4.5

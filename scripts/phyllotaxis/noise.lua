@@ -1,6 +1,7 @@
 --- Decussate leaves in spite of noise.
--- WHAT    pairs of primordia, each at right angles to the one before. The places on the ring are displaced at random, around it and
---         along the apex, anew after every insertion; the pattern, which would turn into a spiral with more noise, stays.
+-- WHAT    pairs of primordia, each at right angles to the one before. The places on the ring are displaced at random, around
+--         it and along the apex, anew after every insertion; the pattern, which would turn into a spiral with more noise,
+--         stays.
 -- HOW     two inhibitors (4.4, 4.5) on 72 places; displacements are normal, `around` degrees and `along` ring radii.
 -- TRY     along=0.06 around=6 (too much: a spiral)   around=0 along=0   samples=360   --seed 2
 -- SOURCE  R. S. Smith, PhD thesis, University of Calgary 2007, section 4.5, fig. 4.11

@@ -1,12 +1,14 @@
 --- How low the threshold may be for a pattern to be kept.
--- WHAT    for six patterns, the lowest threshold at which the primordia at the start are followed by others of the same pattern. Fibonacci
---         spirals are kept over the widest range; then come Lucas, bijugate, anomalous ... Prints the table.
--- HOW     one inhibitor (4.3) on a flat apex, from 20 primordia at the limit angle (10 pairs). Thresholds rise by 3 %; the lowest of six in a
---         row that all keep the pattern counts. Kept: the mean of the last 30 of 60 within 3 degrees of the limit (4 for Lucas and bijugate, 8 for
---         Fibonacci, whose angle changes with the threshold), steady within 4, and parastichies of the sequence.
+-- WHAT    for six patterns, the lowest threshold at which the primordia at the start are followed by others of the same
+--         pattern. Fibonacci spirals are kept over the widest range; then come Lucas, bijugate, anomalous ... Prints the
+--         table.
+-- HOW     one inhibitor (4.3) on a flat apex, from 20 primordia at the limit angle (10 pairs). Thresholds rise by 3 %; the
+--         lowest of six in a row that all keep the pattern counts. Kept: the mean of the last 30 of 60 within 3 degrees of
+--         the limit (4 for Lucas and bijugate, 8 for Fibonacci, whose angle changes with the threshold), steady within 4, and
+--         parastichies of the sequence.
 -- TRY     samples=360 (quicker)   ratio=1.1   b=1.5
--- SOURCE  R. S. Smith, PhD thesis, University of Calgary 2007, section 4.3.2, table 4.1. The radius makes the unit of the thresholds
---         the thesis's, from one of its six numbers (Lucas)
+-- SOURCE  R. S. Smith, PhD thesis, University of Calgary 2007, section 4.3.2, table 4.1. The radius makes the unit of the
+--         thresholds the thesis's, from one of its six numbers (Lucas)
 local tunica = require "tunica"
 
 local P = tunica.params {

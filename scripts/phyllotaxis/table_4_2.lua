@@ -1,9 +1,10 @@
 --- Twenty-five patterns from one set of parameters.
--- WHAT    all patterns of table 4.2, from sixth accessory to whorls of ten, each kept by the same model: they differ only in the
---         primordia that are there at the start. Prints the table, and draws a page like fig. 4.12.
--- HOW     two inhibitors (4.4, 4.5) on a dome that is a B-spline. The primordia at the start are a lattice at the limit angle, at the plastochron
---         at which the next one is due. Judged: the second half. Kept: the mean angle is in the allowable interval of the parastichies
---         and steady, and whorls are even. Near: also within a degree of the limit angle.
+-- WHAT    all patterns of table 4.2, from sixth accessory to whorls of ten, each kept by the same model: they differ only in
+--         the primordia that are there at the start. Prints the table, and draws a page like fig. 4.12.
+-- HOW     two inhibitors (4.4, 4.5) on a dome that is a B-spline. The primordia at the start are a lattice at the limit
+--         angle, at the plastochron at which the next one is due. Judged: the second half. Kept: the mean angle is in the
+--         allowable interval of the parastichies and steady, and whorls are even. Near: also within a degree of the limit
+--         angle.
 -- TRY     samples=480   long=4.3   page= (no picture)   shape=cylinder
 -- SOURCE  R. S. Smith, PhD thesis, University of Calgary 2007, section 4.4.2, table 4.2, fig. 4.12; the values are our own
 local tunica = require "tunica"

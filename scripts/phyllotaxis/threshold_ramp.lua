@@ -1,8 +1,8 @@
 --- A threshold that rises: from two rows of leaves to ever finer spirals.
--- WHAT    at a low threshold primordia stand opposite each other (180 degrees). As it rises, this gives way, at once, to about 150
---         degrees; then the angle falls towards 137.5 and swings about it, while the spirals become finer.
--- HOW     one inhibitor (4.3) on a flat apex; its threshold rises geometrically over `ramp` units of time. plot the angle of each
---         primordium against the threshold at its birth: primordia.csv has both.
+-- WHAT    at a low threshold primordia stand opposite each other (180 degrees). As it rises, this gives way, at once, to
+--         about 150 degrees; then the angle falls towards 137.5 and swings about it, while the spirals become finer.
+-- HOW     one inhibitor (4.3) on a flat apex; its threshold rises geometrically over `ramp` units of time. The picture
+--         `divergence` shows each primordium's angle against the threshold when it arose.
 -- TRY     b=2   to=20 (up to higher orders)   samples=5760
 -- SOURCE  R. S. Smith, PhD thesis, University of Calgary 2007, section 4.3.1, fig. 4.3
 local tunica = require "tunica"

@@ -1,8 +1,9 @@
 --- Plants that change their leaf arrangement, by one parameter.
--- WHAT    a pattern is established, then the threshold of the long-range inhibition changes to `factor` times its value over a few
---         plastochrons, and another pattern takes over. `change` chooses one of seven.
--- HOW     two inhibitors (4.4, 4.5). A pattern that is symmetric in itself is left only if something breaks the symmetry, as every living
---         thing does: places on the ring are displaced by `jitter` degrees. Without it, decussate would stay decussate for ever.
+-- WHAT    a pattern is established, then the threshold of the long-range inhibition changes to `factor` times its value over
+--         a few plastochrons, and another pattern takes over. `change` chooses one of seven.
+-- HOW     two inhibitors (4.4, 4.5). A pattern that is symmetric in itself is left only if something breaks the symmetry, as
+--         every living thing does: places on the ring are displaced by `jitter` degrees. Without it, decussate would stay
+--         decussate for ever.
 -- TRY     change=decussate-bijugate, distichous-fibonacci, whorled-fibonacci, whorled-lucas, whorled-trijugate, bijugate-fibonacci
 --         jitter=0 (stays)   change=distichous-fibonacci jitter=0 (two minima at once: decussate)   --seed 2
 -- SOURCE  R. S. Smith, PhD thesis, University of Calgary 2007, section 4.4.1, fig. 4.10; the values are our own

@@ -49,7 +49,8 @@ class ByteReader {
   template <class T>
   std::vector<T> array() {
     const auto count = get<uint64_t>();
-    if (count > rest_.size() / sizeof(T)) fail("the file is cut or damaged: it announces {} values and ends before", count);
+    if (count > rest_.size() / sizeof(T))
+      fail("the file is cut or damaged: it announces {} values and ends before", count);
     std::vector<T> values(count);
     if (count) std::memcpy(values.data(), take(count * sizeof(T)).data(), count * sizeof(T));
     return values;

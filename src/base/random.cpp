@@ -16,8 +16,8 @@ struct Pair {
 
 Pair bits(const RandomKey& key) {
   r123::Philox4x32 philox;
-  const r123::Philox4x32::ctr_type counter{{static_cast<uint32_t>(key.cell), static_cast<uint32_t>(key.cell >> 32),
-                                            key.step, key.purpose}};
+  const r123::Philox4x32::ctr_type counter{
+      {static_cast<uint32_t>(key.cell), static_cast<uint32_t>(key.cell >> 32), key.step, key.purpose}};
   const r123::Philox4x32::key_type seed{{static_cast<uint32_t>(key.seed), static_cast<uint32_t>(key.seed >> 32)}};
   const auto r = philox(counter, seed);
   return {(uint64_t{r[0]} << 32) | r[1], (uint64_t{r[2]} << 32) | r[3]};

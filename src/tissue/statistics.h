@@ -41,9 +41,9 @@ Peaks find_peaks(const Tissue& tissue, std::string_view column);
 Peaks find_peaks(const Tissue& tissue, std::string_view column, double above);
 
 /// How far neighbouring cells alternate, -1 .. 1: with u = a cell's value minus the mean of its neighbours',
-/// -2 sum u_a u_b / sum (u_a^2 + u_b^2) over the walls between two cells. 1 for a checkerboard on a grid (0.5 is the most
-/// that hexagons allow), 0.2 to 0.7 for noise, the more the fewer the neighbours; negative where values are smooth, 0
-/// where all are equal. Alternation from cell to cell is the sign of a step too long, not of a pattern.
+/// -2 sum u_a u_b / sum (u_a^2 + u_b^2) over the walls between two cells. 1 for a checkerboard on a grid (0.5 is the
+/// most that hexagons allow), 0.2 to 0.7 for noise, the more the fewer the neighbours; negative where values are
+/// smooth, 0 where all are equal. Alternation from cell to cell is the sign of a step too long, not of a pattern.
 /// @param values  one per cell
 double checkerboard_index(const Tissue& tissue, const double* values);
 /// Whether this index is beyond what noise gives on such a tissue.

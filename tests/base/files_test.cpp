@@ -13,7 +13,8 @@ namespace {
 
 class Files : public testing::Test {
  protected:
-  Files() : folder_(testing::TempDir() + "tunica_files_" + testing::UnitTest::GetInstance()->current_test_info()->name()) {
+  Files()
+      : folder_(testing::TempDir() + "tunica_files_" + testing::UnitTest::GetInstance()->current_test_info()->name()) {
     std::filesystem::remove_all(folder_);
     make_folders(folder_);
   }

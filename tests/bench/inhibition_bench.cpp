@@ -2,8 +2,8 @@
 // Inhibition fields: time per pair, and for each way of finding the times of insertions the time per primordium beside
 // its errors. Disk with RERG 1, b = 1, from a lattice at 137.51 degrees; errors against 5,760 samples and times found
 // to 1e-9.
-#include <ctime>
 #include <cstdio>
+#include <ctime>
 
 #include "field/inhibition_fixtures.h"
 
