@@ -76,6 +76,25 @@ op { name = "contour:at", args = { { name = "u", type = "number", required = tru
     doc = "place along the curve by its parameter, 0 to 1 (which is not arc length)" } },
   doc = "A point of the contour and the direction of the curve there.", returns = "x, y, and the unit tangent's x, y",
   fn = core.contour_place, example = example(contour .. "print(contour:at(0.5))") }
+local along = { { name = "s", type = "number", required = true, unit = "length",
+  doc = "arc length from the start, to the contour's length; of a closed contour any, which goes round" } }
+op { name = "contour:length", returns = "a number", doc = "The length of the contour, to 1e-12 of it.",
+  fn = core.contour_length, example = example(contour .. "print(contour:length())") }
+op { name = "contour:along", args = along, returns = "x, y",
+  doc = "The point of the contour at an arc length, to 1e-10 of its length.",
+  fn = core.contour_along, example = example(contour .. "print(contour:along(contour:length() / 2))") }
+op { name = "contour:tangent", args = along, returns = "x, y",
+  doc = "The direction of the contour at an arc length, a unit vector; at a corner that of what follows.",
+  fn = core.contour_tangent, example = example(contour .. "print(contour:tangent(1))") }
+op { name = "contour:closest", returns = "its arc length, x, y",
+  args = { { name = "x", type = "number", required = true, min = -1e100, max = 1e100, doc = "of the point" },
+    { name = "y", type = "number", required = true, min = -1e100, max = 1e100, doc = "of the point" } },
+  doc = "The place of the contour nearest to a point, the first of several; its distance is the least to 1e-10 of the length.",
+  fn = core.contour_closest, example = example(contour .. "print(contour:closest(2, -1))") }
+op { name = "contour:area", returns = "a number",
+  doc = "The area within the contour, positive if it runs counter-clockwise; one that is not closed is closed by a straight " ..
+    "line from its end to its start. Exact.",
+  fn = core.contour_area, example = example(contour .. "print(contour:area())") }
 op { name = "contour:points", doc = "What the contour was drawn from.",
   returns = "a list of { x, y }, the degree, and 'open', 'clamped' or 'closed'", fn = core.contour_points,
   example = example(contour .. "print(#contour:points())") }

@@ -156,6 +156,70 @@ int contour_place(lua_State* L) {
   });
 }
 
+const ArcLength& measured(const Contour& c) {
+  if (!c.measured) c.measured = std::make_shared<const ArcLength>(c.spline);
+  return *c.measured;
+}
+
+/// The arc length at a stack index: of a closed contour any, as a place from 0 to its length.
+double arc_at(lua_State* L, int at, const Contour& c) {
+  const double s = check_number(L, at, "'s'"), length = measured(c).length();
+  if (c.ends == Ends::closed) {
+    const double within = s - length * std::floor(s / length);
+    return std::clamp(within, 0., length);
+  }
+  if (!(s >= -1e-10 * length && s <= length * (1 + 1e-10)))
+    fail("'s' must be an arc length from 0 to the contour's length {:.10g}, came {:.10g}", length, s);
+  return std::clamp(s, 0., length);
+}
+
+int push_pair(lua_State* L, const Vec2& p) {
+  lua_pushnumber(L, p.x());
+  lua_pushnumber(L, p.y());
+  return 2;
+}
+
+int contour_length(lua_State* L) {
+  return guard(L, [&] {
+    lua_pushnumber(L, measured(contour_at(L, 1)).length());
+    return 1;
+  });
+}
+
+/// contour_along(contour, arc length) -> x, y
+int contour_along(lua_State* L) {
+  return guard(L, [&] {
+    const Contour& c = contour_at(L, 1);
+    return push_pair(L, measured(c).at(arc_at(L, 2, c)));
+  });
+}
+
+/// contour_tangent(contour, arc length) -> x, y
+int contour_tangent(lua_State* L) {
+  return guard(L, [&] {
+    const Contour& c = contour_at(L, 1);
+    return push_pair(L, measured(c).tangent(arc_at(L, 2, c)));
+  });
+}
+
+/// contour_closest(contour, x, y) -> arc length, x, y
+int contour_closest(lua_State* L) {
+  return guard(L, [&] {
+    const ArcLength& curve = measured(contour_at(L, 1));
+    const double s = curve.nearest({check_number(L, 2, "'x'"), check_number(L, 3, "'y'")}).a;
+    lua_pushnumber(L, s);
+    return 1 + push_pair(L, curve.at(s));
+  });
+}
+
+/// contour_area(contour) -> the area within
+int contour_area(lua_State* L) {
+  return guard(L, [&] {
+    lua_pushnumber(L, measured(contour_at(L, 1)).area());
+    return 1;
+  });
+}
+
 /// contour_changed(contour, factor, reverse)
 int contour_changed(lua_State* L) {
   return guard(L, [&] {
@@ -165,6 +229,7 @@ int contour_changed(lua_State* L) {
     for (Vec2& p : c.points) p *= factor;
     if (lua_toboolean(L, 3)) std::reverse(c.points.begin(), c.points.end());
     c.spline = BSpline(c.points, c.degree, c.ends);
+    c.measured = nullptr;
     return push(L, std::move(c));
   });
 }
@@ -314,6 +379,11 @@ void register_shapes(lua_State* L) {
                                 {"load_contour", load_contour},
                                 {"contour_points", contour_points},
                                 {"contour_place", contour_place},
+                                {"contour_length", contour_length},
+                                {"contour_along", contour_along},
+                                {"contour_tangent", contour_tangent},
+                                {"contour_closest", contour_closest},
+                                {"contour_area", contour_area},
                                 {"contour_changed", contour_changed},
                                 {"save_contour", save_contour},
                                 {"new_curve", new_curve},

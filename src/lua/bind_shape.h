@@ -14,6 +14,7 @@ struct Contour {
   int degree;
   Ends ends;
   BSpline spline;
+  mutable std::shared_ptr<const ArcLength> measured = nullptr;  ///< by arc length; made when first asked for
 };
 
 /// A function of one variable as scripts hold it.

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
-
-#include "shape/bspline.h"
+#include "shape/arc_length.h"
 
 namespace tunica {
 
@@ -22,7 +20,7 @@ class Profile {
   /// From one point straight to another. Exact.
   static Profile line(const Vec2& from, const Vec2& to) { return Profile(BSpline({from, to}, 1, Ends::clamped)); }
 
-  double length() const { return panels_.back().a; }
+  double length() const { return arc_.length(); }
   Vec2 at(double a) const;       ///< a below 0: the start
   Vec2 tangent(double a) const;  ///< unit, in the sense of growing a; at a corner that of what follows
   /// The area of the surface from its start to a: the integral of 2 pi x da.
@@ -36,41 +34,19 @@ class Profile {
   bool has_hole() const { return hole() > 0; }
   double widest() const { return widest_; }  ///< largest x on the curve, its continuation not counted
   /// The control points, of a profile made from a curve.
-  const std::optional<BSpline>& curve() const { return curve_; }
+  const std::optional<BSpline>& curve() const { return arc_.curve(); }
 
  private:
-  /// The curve is smooth between two of these places, and Gauss's rule of 12 points gives its length there.
-  struct Panel {
-    double u, a, area;  ///< parameter; arc length and area since the start
-  };
-  struct Sample {
-    double u, a;
-    Vec2 point;
-  };
-  struct Cap {
-    double radius, slope;
-  };
-  Profile(const Cap& cap, double length);
-  void evaluate(double u, Vec2& point, Vec2& derivative) const;
-  Vec2 point_at(double u) const;
-  Vec2 direction(double u) const;
-  double speed(double u) const;
+  explicit Profile(ArcLength arc);
   double ring(double u) const;  ///< of the area, per u
-  void measure(const std::vector<double>& breaks);
-  void add_panels(double from, double to, int depth);
-  void take_samples();
+  double area_between(double from, double to) const;
+  void measure_area();
   void check() const;
-  size_t panel_at_arc(double a) const;
-  double parameter(double a) const;
-  double arc(double u) const;
-  std::optional<double> nearest_between(const Vec2& p, double low, double high) const;
 
-  std::optional<BSpline> curve_;
-  Cap cap_{};
-  std::vector<Panel> panels_;  ///< their starts, and the end of the last
-  std::vector<Sample> samples_;
+  ArcLength arc_;
+  std::vector<double> areas_;  ///< from the start to each panel of arc_, and to the end of the last
   Vec2 start_, end_, onward_;  ///< onward: direction beyond the end
-  double size_ = 1, widest_ = 0;
+  double widest_ = 0;
 };
 
 }  // namespace tunica

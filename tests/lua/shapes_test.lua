@@ -18,6 +18,30 @@ check.near(select(1, line:scaled(2):at(1)), 6, 1e-15)
 check.near(select(2, line:reversed():at(0)), -4, 1e-15)
 check.equal(tostring(tunica.contour "dome"), "contour 'dome' of 10 points, degree 3")
 
+-- By arc length, closed or not.
+local square = tunica.contour { { 0, 0 }, { 2, 0 }, { 2, 2 }, { 0, 2 }, degree = 1, ends = "closed" }
+check.near(square:length(), 8, 1e-14)
+check.near(square:area(), 4, 1e-14)
+check.near(square:reversed():area(), -4, 1e-14)
+check.near(square:scaled(3):length(), 24, 1e-13)
+for _, s in ipairs { 3, 11, -5 } do  -- it goes round
+  local px, py = square:along(s)
+  check.near(px, 2, 1e-13)
+  check.near(py, 1, 1e-13)
+  check.near(select(2, square:tangent(s)), 1, 1e-14)
+end
+local s, sx, sy = square:closest(3, 1.5)
+check.near(s, 3.5, 1e-13)
+check.near(sx, 2, 1e-14)
+check.near(sy, 1.5, 1e-13)
+check.near(line:length(), 5, 1e-14)
+check.near(select(2, line:along(2.5)), -2, 1e-14)
+check.near(select(2, line:along(line:length())), -4, 1e-14)
+check.near(tunica.contour({ { 0, 0 }, { 1, 0 }, { 2, -4 } }):area(), -4 / 3, 1e-14)
+check.fails(function() line:along(5.1) end, "'s' must be an arc length from 0 to the contour's length 5, came 5.1")
+check.fails(function() line:tangent(-1) end, "arc length")
+check.fails(function() line:along(1 / 0) end, "'s' must be a number")
+
 -- Functions.
 local f = tunica.curve { { 0, 0 }, { 1, 1 }, { 3, 0 }, degree = 1 }
 check.near(f(2), 0.5, 1e-15)
