@@ -158,6 +158,7 @@ op { name = "tunica.phyllotaxis", kind = "named", returns = "a model of phyllota
 local function is_callable(value)
   if type(value) == "function" then return true end
   if type(value) == "number" then return false end
+  if core.shape_kind(value) == "curve" then return true end
   local ok, call = pcall(function() return getmetatable(value).__call end)
   return ok and call ~= nil
 end

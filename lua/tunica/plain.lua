@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: MIT
---- Plain Lua values (numbers, text, booleans, handles, tables of these) as bytes and back, and the plain values that
+--- Plain Lua values (numbers, text, booleans, handles, curves, tables of these) as bytes and back, and the plain values that
 -- functions keep in their upvalues: what a checkpoint must hold of a script.
 
 local core = require "tunica.core"
@@ -13,7 +13,9 @@ local function is_handle(value)
   return (kind == "cell" or kind == "wall" or kind == "side" or kind == "junction") and kind
 end
 
--- n number | s text | b boolean | h handle | t table (entries that are not plain are left out) | N nil
+local function is_curve(value) return type(value) == "userdata" and core.shape_kind(value) == "curve" end
+
+-- n number | s text | b boolean | h handle | c curve | t table (entries that are not plain are left out) | N nil
 local function encode(value, out, open)
   local kind = type(value)
   if kind == "number" then
@@ -24,6 +26,11 @@ local function encode(value, out, open)
     out[#out + 1] = value and "b1" or "b0"
   elseif is_handle(value) then
     out[#out + 1] = "h" .. core.kind(value) .. ":" .. core.id(value) .. ";"
+  elseif is_curve(value) then
+    local points, degree, name = core.curve_points(value)
+    out[#out + 1] = "c" .. degree .. ";"
+    encode(name, out, open)
+    encode(points, out, open)
   elseif is_plain_table(value) and not open[value] then
     open[value] = true
     local entries = {}
@@ -46,7 +53,8 @@ end
 
 function plain.is_plain(value)
   local kind = type(value)
-  return kind == "number" or kind == "string" or kind == "boolean" or is_plain_table(value) or is_handle(value) and true or false
+  return kind == "number" or kind == "string" or kind == "boolean" or is_plain_table(value) or is_curve(value)
+    or is_handle(value) and true or false
 end
 
 function plain.encode(value)
@@ -68,6 +76,12 @@ local function decode(text, at, tissue)
   elseif mark == "h" then
     local kind, id, after = text:match("^(%a+):(%d+);()", at + 1)
     return tissue and core.find(tissue, kind, tonumber(id)), after
+  elseif mark == "c" then
+    local degree, after = text:match("^(%d+);()", at + 1)
+    local name, points
+    name, after = decode(text, after, tissue)
+    points, after = decode(text, after, tissue)
+    return core.new_curve(points, tonumber(degree), name), after
   elseif mark == "t" then
     local count, after = text:match("^(%d+);()", at + 1)
     local value, key, item = {}, nil, nil

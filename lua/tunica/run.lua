@@ -184,9 +184,10 @@ local function new_directory(self)
   local options = self.options
   return directory.make(options.out, self.name, function(folder)
     directory.lock(folder)
-    self.script = directory.save_sources(folder, options.script)
-    local main = self.script.main
-    self.script = { path = self.old and self.old.script.path or main.path, copy = main.copy, hash = main.hash, modules = self.script.modules }
+    local saved = directory.save_sources(folder, options.script)
+    local main = saved.main
+    self.script = { path = self.old and self.old.script.path or main.path, copy = main.copy, hash = main.hash,
+      modules = saved.modules, files = saved.files }
     record.write(self, folder)
   end)
 end

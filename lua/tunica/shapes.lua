@@ -3,6 +3,7 @@
 
 local core = require "tunica.core"
 local registry = require "tunica.registry"
+local warnings = require "tunica.warnings"
 local op, fail = registry.op, registry.fail
 
 local function is(kind)
@@ -62,12 +63,25 @@ op { name = "tunica.curve", returns = "a curve; f(x) is its value", source = "th
     "decreases, with degree = (3, or what the points allow; 1: straight from point to point), name = ; or the name of a " ..
     "shipped curve, or a file of L-Studio (.func), relative to the script" }, item },
   doc = "A function of one variable, drawn as a clamped B-spline, as growth along a profile or a threshold in time. Outside " ..
-    "its points the values of its ends hold. A curve never changes.",
+    "its points the values of its ends hold. A curve never changes. In rules and fields those of degree 1 are traced.",
   fn = make_curve,
   example = example [[
 local f = tunica.curve { { 0, 0.2 }, { 1, 1 }, { 2, 0 } }
 print(f(0.5), f:integral(0, 2))
 print(tunica.curve "raised")]] }
+
+--- The straight lines between points as an expression of a symbol x: in a rule or a field that is traced.
+core.trace_curves(function(points, x)
+  local y = points[1][2]
+  for i = 2, #points do
+    local from, to = points[i - 1], points[i]
+    if to[1] > from[1] and to[2] ~= from[2] then
+      local within = core.functions.max(0, core.functions.min(x - from[1], to[1] - from[1]))
+      y = y + within * ((to[2] - from[2]) / (to[1] - from[1]))
+    end
+  end
+  return y
+end)
 
 -- Contours ---------------------------------------------------------------------------------------------------------
 
@@ -123,7 +137,7 @@ op { name = "curve:integral", returns = "a number",
     { name = "to", type = "number", required = true, doc = "end" } },
   doc = "The integral of the curve between two places, exact.", fn = core.curve_integral,
   example = example(curve .. "print(f:integral(0, 1))") }
-op { name = "curve:points", doc = "What the curve was drawn from.", returns = "a list of { x, y }, and the degree",
+op { name = "curve:points", doc = "What the curve was drawn from.", returns = "a list of { x, y }, the degree, and the name",
   fn = core.curve_points, example = example(curve .. "print(#f:points())") }
 op { name = "curve:save", args = { file }, fn = function(self, path) core.save_curve(self, path) end,
   doc = "Writes the curve as a file of L-Studio (.func)." }
@@ -144,7 +158,15 @@ op { name = "tunica.apex", kind = "named", returns = "an apex", source = "thesis
     local profile, growth = t.profile, t.growth
     if core.shape_kind(profile) ~= "contour" then profile = make_contour(profile) end
     if type(growth) == "string" or type(growth) == "table" then growth = make_curve(growth) end
-    return (core.new_apex(profile, growth))
+    local apex, least, place = core.new_apex(profile, growth)
+    if least then
+      warnings.say("tunica.apex: the rate of growth is negative, %.4g at a = %.4g: the surface shrinks there", least, place)
+    end
+    local _, widest, hole = apex:measures()
+    if hole > 0 and hole < widest then
+      warnings.say("tunica.apex: the profile starts %.4g from the axis: the surface has a hole at the tip", hole)
+    end
+    return apex
   end,
   example = example [[
 local apex = tunica.apex { profile = "dome", growth = "raised" }

@@ -8,15 +8,19 @@
 namespace tunica::lua {
 namespace {
 
-/// new_apex(contour, growth: curve or number) -> apex, whether the rate is negative somewhere
+/// new_apex(contour, growth: curve or number) -> apex, the least rate of growth, and where it is; the last two only if
+/// the rate is negative somewhere
 int new_apex(lua_State* L) {
   return guard(L, [&] {
     const BSpline& spline = contour_at(L, 1).spline;
     Curve growth =
         lua_type(L, 2) == LUA_TNUMBER ? Curve::constant(check_number(L, 2, "'growth'")) : curve_at(L, 2).curve;
     push_apex(L, Apex(Profile(spline), std::move(growth)));
-    lua_pushboolean(L, apex_at(L, -1).shrinks());
-    return 2;
+    const Apex& apex = apex_at(L, -1);
+    if (!apex.shrinks()) return 1;
+    lua_pushnumber(L, apex.growth().least());
+    lua_pushnumber(L, apex.growth().least_at());
+    return 3;
   });
 }
 

@@ -25,8 +25,9 @@ struct NamedCurve {
 
 /// Adds the functions of curves and apices to the module on top of the stack.
 void register_shapes(lua_State* L);
-void register_apices(lua_State* L);  ///< the part of it in bind_apex.cpp
-int apex_text(lua_State* L);         ///< __tostring of an apex
+void register_contours(lua_State* L);  ///< the part of it in bind_contour.cpp
+void register_apices(lua_State* L);    ///< the part of it in bind_apex.cpp
+int apex_text(lua_State* L);           ///< __tostring of an apex
 /// Notes where the shipped curves are, beside the library (share/curves in the sources).
 void set_curves_folder(lua_State* L, const std::string& library);
 
@@ -36,6 +37,7 @@ const char* shape_kind(lua_State* L, int at);
 const Contour& contour_at(lua_State* L, int at);
 const NamedCurve& curve_at(lua_State* L, int at);
 const Apex& apex_at(lua_State* L, int at);
+void push_contour(lua_State* L, Contour contour);
 void push_apex(lua_State* L, Apex apex);
 
 /// Pushes a list of { x, y }.

@@ -47,11 +47,16 @@ bool is_file(const fs::path& path) {
   return fs::exists(path, error) && !fs::is_directory(path, error);
 }
 
+/// The shipped curve of a name, or "".
+fs::path find_shipped(lua_State* L, const std::string& name, const char* ending) {
+  const fs::path path = curves_folder(L) / (name + ending);
+  return name.find('/') == std::string::npos && is_file(path) ? path : fs::path();
+}
+
 fs::path find_file(lua_State* L, const std::string& name, bool function) {
-  const fs::path folder = curves_folder(L), in_script = script_folder(L) / name;
+  const fs::path folder = curves_folder(L), in_script = script_folder(L) / name, copy = copy_of(L, name);
   const char* ending = function ? ".func" : ".con";
-  const bool plain = name.find('/') == std::string::npos;
-  if (plain && is_file(folder / (name + ending))) return folder / (name + ending);
+  if (!copy.empty() && is_file(copy) && (fs::path(name).is_absolute() || !is_file(in_script))) return copy;
   if (is_file(in_script)) return in_script;
   if (is_file(name)) return name;
   const auto names = shipped_names(folder, ending);
@@ -81,8 +86,11 @@ void set_curves_folder(lua_State* L, const std::string& library) {
 DrawnCurve find_curve(lua_State* L, const std::string& name, bool function, const std::string& item) {
   if (name.empty() || name.size() > 4096 || name.find('\0') != std::string::npos)
     fail("expected the name of a {}, or a file, came '{}'", function ? "curve" : "contour", name.substr(0, 40));
-  const fs::path path = find_file(L, name, function);
+  const fs::path shipped = find_shipped(L, name, function ? ".func" : ".con");
+  const fs::path path = shipped.empty() ? find_file(L, name, function) : shipped;
   const std::string text = read_file(path.string(), largest_file);
+  const bool beside = !fs::path(name).is_absolute() && path == script_folder(L) / name;
+  if (shipped.empty()) note_file(L, path.string(), name, beside, text);
   std::vector<DrawnCurve> curves = read_lstudio(text, path.string());
   if (curves[0].is_function != function)
     fail("{} holds {}, expected {}", path.string(), function ? "contours" : "functions",

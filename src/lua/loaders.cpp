@@ -147,15 +147,52 @@ int find_preloaded(lua_State* L) {
 
 }  // namespace
 
-void note_source(lua_State* L, const std::string& path, std::string_view text) {
+namespace {
+
+constexpr const char* copies_key = "tunica.copies";
+
+/// The next entry of core.sources(), left on the stack for more fields.
+void push_entry(lua_State* L, const std::string& path, std::string_view text) {
   luaL_findtable(L, LUA_REGISTRYINDEX, "tunica.sources", 1);
-  lua_createtable(L, 0, 2);
+  lua_createtable(L, 0, 3);
   lua_pushlstring(L, path.data(), path.size());
   lua_setfield(L, -2, "path");
   lua_pushlstring(L, text.data(), text.size());
   lua_setfield(L, -2, "text");
-  lua_rawseti(L, -2, static_cast<int>(lua_objlen(L, -2)) + 1);
+  lua_pushvalue(L, -1);
+  lua_rawseti(L, -3, static_cast<int>(lua_objlen(L, -3)) + 1);
+  lua_remove(L, -2);
+}
+
+}  // namespace
+
+void note_source(lua_State* L, const std::string& path, std::string_view text) {
+  push_entry(L, path, text);
   lua_pop(L, 1);
+}
+
+void note_file(lua_State* L, const std::string& path, const std::string& asked, bool beside, std::string_view text) {
+  push_entry(L, path, text);
+  lua_pushlstring(L, asked.data(), asked.size());
+  lua_setfield(L, -2, "asked");
+  lua_pushboolean(L, beside);
+  lua_setfield(L, -2, "beside");
+  lua_pop(L, 1);
+}
+
+void set_copy(lua_State* L, const std::string& asked, const std::string& path) {
+  luaL_findtable(L, LUA_REGISTRYINDEX, copies_key, 1);
+  lua_pushlstring(L, path.data(), path.size());
+  lua_setfield(L, -2, asked.c_str());
+  lua_pop(L, 1);
+}
+
+std::string copy_of(lua_State* L, const std::string& asked) {
+  luaL_findtable(L, LUA_REGISTRYINDEX, copies_key, 1);
+  lua_getfield(L, -1, asked.c_str());
+  const std::string path = lua_isstring(L, -1) ? lua_tostring(L, -1) : "";
+  lua_pop(L, 2);
+  return path;
 }
 
 void set_search_folders(lua_State* L, const std::string& folders) {

@@ -39,6 +39,15 @@ void set_search_folders(lua_State* L, const std::string& folders_separated_by_se
 /// core.sources() lists them.
 void note_source(lua_State* L, const std::string& path, std::string_view text);
 
+/// Notes a data file that a script read, under the name by which it asked for it. `beside`: this is a path from the
+/// folder of the script or module that asked.
+void note_file(lua_State* L, const std::string& path, const std::string& asked, bool beside, std::string_view text);
+
+/// From now on a file asked for by this name is the one at `path`: a copy that a run directory holds.
+void set_copy(lua_State* L, const std::string& asked, const std::string& path);
+/// Where the copy of a file is, or "" if there is none.
+std::string copy_of(lua_State* L, const std::string& asked);
+
 // --- Parts of the state, each filled by its own file.
 
 /// Replaces pairs, math.random and math.randomseed by reproducible ones; makes undefined variables an error.

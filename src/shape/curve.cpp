@@ -50,6 +50,7 @@ Curve::Curve(std::vector<Vec2> points, int degree) : points_(std::move(points)),
     fail("the degree of a function curve must be from 1 to {}, not {}", most_degree, degree);
   check();
   least_ = greatest_ = points_[0].y();
+  least_at_ = first();
   before_.push_back(0);
   if (points_.size() == 1) return;
   degree_ = std::min(degree_, static_cast<int>(points_.size()) - 1);
@@ -57,7 +58,7 @@ Curve::Curve(std::vector<Vec2> points, int degree) : points_(std::move(points)),
   for (size_t i = 0; i + 1 < spline.breaks().size(); ++i) add_piece(spline, spline.breaks()[i], spline.breaks()[i + 1]);
   breaks_.push_back(last());
   greatest_ = std::max(greatest_, points_.back().y());
-  least_ = std::min(least_, points_.back().y());
+  if (points_.back().y() < least_) least_ = points_.back().y(), least_at_ = last();
 }
 
 void Curve::check() const {
@@ -105,7 +106,7 @@ void Curve::add_piece(const BSpline& spline, double from, double to) {
   before_.push_back(before_.back() + polynomial(integral.data(), 2 * degree_, 1));
   for (int i = 0; i <= 32; ++i) {
     const double value = polynomial(y.data(), degree_, i / 32.);
-    least_ = std::min(least_, value);
+    if (value < least_) least_ = value, least_at_ = polynomial(x.data(), degree_, i / 32.);
     greatest_ = std::max(greatest_, value);
   }
 }

@@ -35,6 +35,7 @@ class Curve {
   const std::vector<double>& breaks() const { return breaks_; }
   double least() const { return least_; }  ///< the smallest value (to 1e-3 of the range of values, if inside a span)
   double greatest() const { return greatest_; }
+  double least_at() const { return least_at_; }  ///< the first x where it is, as far as it is known
 
  private:
   struct Place {
@@ -53,7 +54,7 @@ class Curve {
   std::vector<double> x_, y_, integral_;
   std::vector<double> breaks_;  ///< x where the pieces start, and the end of the last
   std::vector<double> before_;  ///< the integral from first() to the start of each piece, and to the end
-  double least_ = 0, greatest_ = 0;
+  double least_ = 0, greatest_ = 0, least_at_ = 0;
 };
 
 }  // namespace tunica

@@ -96,8 +96,11 @@ Record read_record(const std::string& directory) {
     record.script.path = directory + "/" + copy;
     record.script.name = "@" + record.script.path;
     record.script.text = read_file(record.script.path);
-    // Modules come from their copies; data files and modules not yet required then, from where the script stood.
+    // Modules and curves come from their copies; modules not yet required then, from where the script stood.
     record.script.folders = directory + "/script;" + fs::path(original).parent_path().string();
+    for (const auto& file : json.at("script").value("files", nlohmann::json::array()))
+      if (file.contains("asked"))
+        record.script.copies[file.at("asked")] = directory + "/" + file.at("copy").get<std::string>();
     record.name = json.at("name");
     record.seed = json.at("seed");
     record.code = json.at("code").get<std::vector<std::string>>();

@@ -99,7 +99,7 @@ int run_script(Options& options) {
   const bool prompt = options.script.empty() && options.code.empty() && isatty(STDIN_FILENO);
   if (prompt) return run_prompt(session, !options.quiet);
   if (!options.script.empty() || options.code.empty()) {
-    if (options.script.empty()) options.script = "-";
+    if (options.script.empty()) options.script.assign(1, '-');  // GCC 12 warns of an assignment without reason
     script = read_script(options.script);
     if (!session.run(script, true)) return failed(options, session);
   }

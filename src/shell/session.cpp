@@ -38,6 +38,7 @@ void Session::set_arguments(const std::string& script, const std::vector<std::st
 bool Session::run(const Script& script, bool keep) {
   try {
     if (!script.folders.empty()) lua::set_search_folders(lua(), script.folders);
+    for (const auto& [asked, path] : script.copies) lua::set_copy(lua(), asked, path);
     lua::note_source(lua(), script.path, script.text);
     lua::load_text(lua(), script.text, script.name);
   } catch (const Error& error) {

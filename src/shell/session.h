@@ -17,7 +17,8 @@ struct Script {
   std::string path;  ///< as given or found; "-" for standard input, "" for code of the command line
   std::string name;  ///< of the chunk, for Lua: "@path" or "=(...)"
   std::string text;
-  std::string folders;  ///< where its `require` looks, separated by semicolons
+  std::string folders;                             ///< where its `require` looks, separated by semicolons
+  std::map<std::string, std::string> copies = {};  ///< of files it reads, by the names it asks for them
 };
 
 inline constexpr const char* code_path = "(command line)";

@@ -53,22 +53,43 @@ function directory.lock(folder)
   return false, string.format("'%s' is in use: %s is running it", folder, holder and "process " .. holder or "another process")
 end
 
+--- A path within the script's folder `home` as seen from there; else nil.
+local function within(home, path)
+  local inside = path:sub(1, #home) == home and path:sub(#home + 1)
+  return inside and inside:sub(1, 1) ~= "/" and not inside:find("..", 1, true) and inside or nil
+end
+
+--- Where the copy of a source goes under <folder>/script; and the name under which a run from there must be told of it,
+-- where it would not look for it by itself.
+local function place_of(source, home)
+  local inside = within(home, source.path)
+  if source.asked then
+    local held = inside and inside:match "^files/"  -- a copy already: the run is one that is repeated
+    local copy = inside or "files/" .. core.hash(source.text) .. "-" .. base_name(source.path)
+    return copy, not (inside and source.beside and not held) and source.asked or nil
+  end
+  if source.path:match "%.lua$" then return inside or base_name(source.path) end
+  return base_name(source.path):gsub("[^%w_-]", "") .. ".lua"
+end
+
 --- Copies of the sources under <folder>/script, so that the run can be repeated when the originals have changed.
--- `main`: path of the script as it was loaded. Returns { main = entry, modules = { entry, ... } }, an entry being
--- { path = original, copy = "script/...", hash = }.
+-- `main`: path of the script as it was loaded. Returns { main = entry, modules = { entry, ... }, files = { entry, ... } },
+-- an entry being { path = original, copy = "script/...", hash = }; of files also `asked`, the name by which the script
+-- asks for one that does not lie in its folder.
 function directory.save_sources(folder, main)
-  local found, seen = { modules = core.as_list {} }, {}
+  local found, seen = { modules = core.as_list {}, files = core.as_list {} }, {}
   local home = folder_of(main) == "." and "" or folder_of(main) .. "/"
   for _, source in ipairs(core.sources()) do
-    if not seen[source.path] then
-      seen[source.path] = true
-      local name = source.path:match "%.lua$" and source.path or base_name(source.path):gsub("[^%w_-]", "") .. ".lua"
-      local inside = name:sub(1, #home) == home and name:sub(#home + 1) or base_name(name)
-      if inside:sub(1, 1) == "/" or inside:find("..", 1, true) then inside = base_name(inside) end
-      local entry = { path = core.absolute_path(source.path), copy = "script/" .. inside, hash = core.hash(source.text) }
+    local key = (source.asked or "") .. "\0" .. source.path
+    if not seen[key] then
+      seen[key] = true
+      local copy, asked = place_of(source, home)
+      local entry = { path = core.absolute_path(source.path), copy = "script/" .. copy, hash = core.hash(source.text), asked = asked }
       core.mkdir(folder_of(folder .. "/" .. entry.copy))
       core.write_atomic(folder .. "/" .. entry.copy, source.text)
-      if source.path == main then found.main = entry else found.modules[#found.modules + 1] = entry end
+      if source.asked then found.files[#found.files + 1] = entry
+      elseif source.path == main then found.main = entry
+      else found.modules[#found.modules + 1] = entry end
     end
   end
   return found

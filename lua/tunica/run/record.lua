@@ -3,6 +3,7 @@
 
 local core = require "tunica.core"
 local params = require "tunica.params"
+local said = require "tunica.warnings"
 local outputs = require "tunica.run.outputs"
 
 local record = {}
@@ -18,7 +19,7 @@ function record.of(self)
   local options, model = self.options, self.model
   local about = outputs.plain(model.about or {})
   local warnings = core.as_list {}
-  for _, list in ipairs { about.warnings or {}, self.warnings } do
+  for _, list in ipairs { said.list, about.warnings or {}, self.warnings } do
     for _, text in ipairs(list) do warnings[#warnings + 1] = text end
   end
   local cost = about.cost

@@ -1,0 +1,19 @@
+-- SPDX-License-Identifier: MIT
+--- What is legal but may not be meant: said once for each place in the script, and listed in run.json.
+
+local registry = require "tunica.registry"
+
+local warnings = { list = {} }
+local said = {}
+
+--- Says it with the line of the user's own code, unless the same was said for that line with other figures.
+function warnings.say(format, ...)
+  local where = registry.where()
+  if said[where .. format] then return end
+  said[where .. format] = true
+  local text = (where == "" and "" or where .. ": ") .. string.format(format, ...)
+  warnings.list[#warnings.list + 1] = text
+  io.stderr:write("tunica: warning: ", text, "\n")
+end
+
+return warnings
