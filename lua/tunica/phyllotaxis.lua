@@ -90,7 +90,14 @@ local function ring_of(o)
   if (o.apex == nil) == (o.path == nil) then fail "tunica.phyllotaxis: give either 'apex' and 'radius', or 'path'" end
   if o.apex then
     if (o.radius == nil) == (o.arc == nil) then fail "tunica.phyllotaxis: say where the ring is on the apex, by 'radius' or by 'arc'" end
-    return { apex = o.apex, arc = o.arc or o.apex:arc_at_radius(o.radius) }
+    local arc = o.arc or o.apex:arc_at_radius(o.radius)
+    if o.radius and arc == 0 then
+      local length, _, hole = o.apex:measures()
+      fail("tunica.phyllotaxis: the first place of the apex with radius %.6g is the rim of the hole at its tip (radius %.6g), "
+        .. "from which nothing moves away; say where the ring is by 'arc', between 0 and the profile's length %.6g", o.radius,
+        hole, length)
+    end
+    return { apex = o.apex, arc = arc }
   end
   if o.arc then fail "tunica.phyllotaxis: 'arc' is a place on an apex; a path starts on the ring" end
   local x, y = core.call_rule(o.path, 0)

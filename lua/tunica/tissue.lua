@@ -274,12 +274,14 @@ op { name = "tissue:divide", kind = "named", returns = "the number of divisions"
     { name = "max_cells", type = "integer", min = 1, max = 2 ^ 24, default = 1000000, doc = "stops when there are so many" },
   },
   doc = "Divides cells, in the order of their identities. Four walls never meet in one point, and the ends of the wall are " ..
-    "pinched as in living tissue. What daughters get is said where the columns are declared.",
+    "pinched as in living tissue. What daughters get is said where the columns are declared. A cell that cannot be divided " ..
+    "as its rule says is an error, raised when all others are divided.",
   fn = function(self, t)
     local surface = t.on and surfaces.core_of(t.on)
-    local divisions = core.divide_cells(self, t.above, t.variation, t.where, t.max_cells, rule_of(t), t.direction, t.gap,
-      t.pinch, surface)
+    local done, divisions = pcall(core.divide_cells, self, t.above, t.variation, t.where, t.max_cells, rule_of(t), t.direction,
+      t.gap, t.pinch, surface)
     if surface then relocate(self, surface) end
+    if not done then error(divisions, 0) end  -- others were divided
     return divisions
   end,
   example = sheet .. [[

@@ -126,16 +126,22 @@ int64_t divide_where(lua_State* L, Tissue& tissue, int where, const Threshold* t
   for (Index i = 0; i < tissue.cells(); ++i) waiting.push_back(tissue.id(Kind::cell, i));
   std::sort(waiting.begin(), waiting.end());
   int64_t divisions = 0;
+  Undivided undivided;
   for (; !waiting.empty() && tissue.cells() < most_cells; waiting.pop_front()) {
     poll(&host(L).cancel);
     const Index cell = tissue.find(Kind::cell, waiting.front());
     if (cell == none || (threshold && !(tissue.area(cell) > threshold_of(tissue, cell, *threshold)))) continue;
     if (!chosen(L, where, tissue, cell)) continue;
-    const Division done = divide(tissue, cell, rule, settings, surface);
-    ++divisions;
-    if (!threshold) continue;
-    for (const Index daughter : {done.first, done.second}) waiting.push_back(tissue.id(Kind::cell, daughter));
+    try {
+      const Division done = divide(tissue, cell, rule, settings, surface);
+      ++divisions;
+      if (!threshold) continue;
+      for (const Index daughter : {done.first, done.second}) waiting.push_back(tissue.id(Kind::cell, daughter));
+    } catch (const Indivisible& error) {
+      undivided.add(waiting.front(), error);
+    }
   }
+  undivided.report(divisions);
   return divisions;
 }
 

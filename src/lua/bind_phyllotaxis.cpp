@@ -88,8 +88,10 @@ void ring_on_apex(InhibitionSettings& s, const Apex& apex, double arc) {
   s.ring = apex.profile().at(arc);
   const double speed = apex.speed(arc);
   if (!(speed > 0))
-    fail("what is on the ring (arc {:.6g}) does not move away from the tip: the growth up to there is {:.6g}", arc,
-         speed);
+    fail(
+        "what is on the ring (arc {:.6g}) does not move away from the tip: the growth up to there is {:.6g}; give a "
+        "place farther down by 'arc', or a rate of growth that is positive on the way there",
+        arc, speed);
   s.track = [path = apex.path(arc, passages * s.ring.x() / speed)](double age) -> Vec2 {
     try {
       return path.at(age);

@@ -35,10 +35,11 @@ Vec2 direction_of(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 }  // namespace
 
-FlatCell::FlatCell(const Tissue& tissue, Index cell) : sides(sides_of(tissue, cell)), frame(tissue.polygon(cell)) {
+FlatCell::FlatCell(const Tissue& tissue, Index cell)
+    : id(tissue.id(Kind::cell, cell)), sides(sides_of(tissue, cell)), frame(tissue.polygon(cell)) {
   points = frame.flat(tissue.polygon(cell));
   area = signed_area(points);
-  if (!(area > 0)) fail("cell {} has no positive area", tissue.id(Kind::cell, cell));
+  if (!(area > 0)) throw Indivisible(fmt::format("cell {} has no positive area", id));
   const Vec2 centroid = centroid_of(points);
   frame.origin += centroid.x() * frame.u + centroid.y() * frame.v;
   for (Vec2& p : points) p -= centroid;
@@ -238,7 +239,8 @@ Chord shortest_chord(const FlatCell& cell) {
     for (double least = .2; !std::isfinite(best.length) && least > 1e-3; least /= 2)
       best = shortest_from_outside(cell, least);
   }
-  if (!std::isfinite(best.length)) fail("a cell is so thin that no wall through its centroid can be found");
+  if (!std::isfinite(best.length))
+    throw Indivisible(fmt::format("cell {} is so thin that no wall through its centroid can be found", cell.id));
   return {cut_at(cell, direction_of(best.angle), best.a, best.b), best.length};
 }
 
@@ -255,7 +257,7 @@ Chord chord_along(const FlatCell& cell, const Vec2& direction) {
     balance = here;
     chosen = k;
   }
-  if (chosen == hits.size()) fail("no wall along this line lies inside the cell");
+  if (chosen == hits.size()) throw Indivisible(fmt::format("no wall along this line lies inside cell {}", cell.id));
   return {cut_at(cell, d, hits[chosen].side, hits[chosen + 1].side), hits[chosen + 1].r - hits[chosen].r};
 }
 

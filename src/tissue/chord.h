@@ -10,13 +10,14 @@ namespace tunica {
 
 /// A cell seen along its normal: its polygon in the mean plane, centroid at the origin. What division rules work on.
 struct FlatCell {
+  Id id;
   std::vector<Index> sides;  ///< in cyclic order
   std::vector<Vec2> points;  ///< where sides[i] starts
   Frame frame;
   double area;
   bool centroid_inside;  ///< properly: not on the outline
 
-  /// Errors: the cell has no positive area.
+  /// Errors: Indivisible, the cell has no positive area.
   FlatCell(const Tissue& tissue, Index cell);
   size_t size() const { return points.size(); }
   const Vec2& from(size_t side) const { return points[side]; }
@@ -41,7 +42,7 @@ struct Chord {
   Cut cut;
   double length;
 };
-/// The walls of the rules errera() and along(), see there; with lengths in the mean plane.
+/// The walls of the rules errera() and along(), see there; with lengths in the mean plane. Errors: Indivisible.
 Chord shortest_chord(const FlatCell& cell);
 Chord chord_along(const FlatCell& cell, const Vec2& direction);
 

@@ -155,8 +155,9 @@ Plan find_plan(const Mother& mother, const Cut& cut, const DivisionSettings& set
     Plan plan = make_plan(mother, a, b, try_gap, try_pinch, surface);
     if (is_possible(mother, plan, surface)) return plan;
   }
-  fail("cell {} cannot be divided there: a daughter or a neighbour would have no area or cross itself",
-       mother.tissue.id(Kind::cell, mother.cell));
+  throw Indivisible(
+      fmt::format("cell {} cannot be divided there: a daughter or a neighbour would have no area or cross itself",
+                  mother.tissue.id(Kind::cell, mother.cell)));
 }
 
 /// What the parts of a wall and of its sides get when a junction at `p` splits it.
@@ -247,6 +248,18 @@ Division divide(Tissue& tissue, Index cell, const DivisionRule& rule, const Divi
   return divide_one(tissue, cell, rule, settings, surface).division;
 }
 
+void Undivided::report(int64_t divisions) const {
+  if (messages_.empty()) return;
+  const size_t others = messages_.size() - 1;
+  fail("{}{} ({})", messages_.begin()->second,
+       others == 0   ? ""
+       : others == 1 ? "; nor can another cell"
+                     : fmt::format("; nor can {} other cells", others),
+       divisions == 0   ? "nothing was divided"
+       : divisions == 1 ? "elsewhere a cell was divided"
+                        : fmt::format("elsewhere there were {} divisions", divisions));
+}
+
 double threshold_of(const Tissue& tissue, Index cell, const Threshold& threshold) {
   const double u =
       2 * uniform({.seed = tissue.seed(), .purpose = purpose("division"), .cell = tissue.id(Kind::cell, cell)}) - 1;
@@ -281,19 +294,27 @@ int64_t divide_above(Tissue& tissue, const Threshold& threshold, const DivisionR
   for (Index cell = 0; cell < tissue.cells(); ++cell) consider(cell);
   const Index before = tissue.cells();
   int64_t divisions = 0;
+  Undivided undivided;
   while (!due.empty() && (threshold.most_cells < 0 || tissue.cells() < threshold.most_cells)) {
     poll(cancel);
     const Index cell = tissue.find(Kind::cell, due.top());
     due.pop();
     // A neighbour's pinching may have changed the cell since; and it may be in the queue twice.
     if (cell == none || !(tissue.area(cell) > threshold_of(tissue, cell, threshold))) continue;
-    const Outcome outcome = divide_one(tissue, cell, rule, settings, surface);
-    ++divisions;
-    for (const Index touched : {outcome.division.first, outcome.division.second, outcome.across_a, outcome.across_b})
-      consider(touched);
+    const Id mother = tissue.id(Kind::cell, cell);
+    try {
+      const Outcome outcome = divide_one(tissue, cell, rule, settings, surface);
+      ++divisions;
+      undivided.remove(mother);
+      for (const Index touched : {outcome.division.first, outcome.division.second, outcome.across_a, outcome.across_b})
+        consider(touched);
+    } catch (const Indivisible& error) {
+      undivided.add(mother, error);
+    }
   }
   // Daughters are appended, so neighbours drift apart in memory, and everything that walks the tissue would slow down.
   if (passed_a_mark(before, tissue.cells())) renumber_along_curve(tissue);
+  undivided.report(divisions);
   return divisions;
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 
 #include "base/cancel.h"
+#include "base/error.h"
 #include "tissue/surface.h"
 
 namespace tunica {
@@ -56,14 +58,32 @@ struct Division {
   Index wall;           ///< between them
 };
 
+/// A cell cannot be divided where its rule says: what came of it would be no cell.
+class Indivisible : public Error {
+ public:
+  using Error::Error;
+};
+
+/// What could not be divided while many cells were, which does not keep the others from it.
+class Undivided {
+ public:
+  void add(Id cell, const Indivisible& error) { messages_[cell] = error.what(); }
+  void remove(Id cell) { messages_.erase(cell); }  ///< it went at another try, its neighbours having divided
+  /// Errors: if there are any, with the cell of the lowest identity, their number, and what was done.
+  void report(int64_t divisions) const;
+
+ private:
+  std::map<Id, std::string> messages_;
+};
+
 /// Divides a cell. The ends of the new wall are displaced along the cell's outline to keep the gap from where three or
 /// more walls meet and from corners (at most .45 of the wall they are on), so four walls never meet in one point; then
 /// the wall is pinched, and its ends put onto the surface if there is one. If that makes an impossible cell (no area,
 /// crossing itself) of a daughter or a neighbour, it is tried without pinching, then with a smaller gap.
 /// Columns: the daughters get what each column's Inherit says, likewise the parts of the two walls and their sides; the
 /// new wall, its sides and junctions get initial values. Time is proportional to the cells touched.
-/// Errors: the cut is not one of this cell; no possible division there; locked; what a column's rule throws. The tissue
-/// is then as it was.
+/// Errors: the cut is not one of this cell; no possible division there (Indivisible); locked; what a column's rule
+/// throws. The tissue is then as it was.
 Division divide(Tissue& tissue, Index cell, const Cut& cut, const DivisionSettings& settings = {},
                 const Surface* surface = nullptr);
 Division divide(Tissue& tissue, Index cell, const DivisionRule& rule, const DivisionSettings& settings = {},
@@ -80,7 +100,8 @@ double threshold_of(const Tissue& tissue, Index cell, const Threshold& threshold
 
 /// Divides every cell above its threshold, until none is; in order of identity, so daughters last. When the tissue
 /// grows past 1000, 1250, 1562, ... cells it is renumbered along a curve (order.h) at the end. Errors: settings out of
-/// range; no geometry; those of divide(), with what is divided by then done; Cancelled, between two divisions.
+/// range; no geometry; those of divide(), with what is divided by then done, Indivisible only when all others are
+/// divided (Undivided); Cancelled, between two divisions.
 /// @return how many divisions
 int64_t divide_above(Tissue& tissue, const Threshold& threshold, const DivisionRule& rule,
                      const DivisionSettings& settings = {}, const Surface* surface = nullptr,

@@ -60,7 +60,7 @@ DivisionRule along(const Vec3& direction) {
     const FlatCell flat(tissue, cell);
     const Vec2 in_plane(unit.dot(flat.frame.u), unit.dot(flat.frame.v));
     if (in_plane.norm() < 1e-6)
-      fail("the direction of division is at right angles to cell {}", tissue.id(Kind::cell, cell));
+      throw Indivisible(fmt::format("the direction of division is at right angles to cell {}", flat.id));
     return chord_along(flat, in_plane).cut;
   };
 }
@@ -82,7 +82,7 @@ Cut cut_between(const Tissue& tissue, Index cell, const Vec3& p, const Vec3& q) 
            point.z(), tissue.id(Kind::cell, cell));
   }
   if (ends[0].side == ends[1].side)
-    fail("both ends of the dividing wall lie on the same wall of cell {}", tissue.id(Kind::cell, cell));
+    throw Indivisible(fmt::format("both ends of the dividing wall lie on the same wall of cell {}", flat.id));
   return {flat.sides[ends[0].side], ends[0].at, flat.sides[ends[1].side], ends[1].at};
 }
 

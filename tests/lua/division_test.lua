@@ -78,6 +78,20 @@ check.fails(function() sheet:divide {} end, "which cells divide")
 check.fails(function() tunica.ring { 5 }:divide { above = 1 } end, "without geometry")
 check.equal(sheet:hash(), before)
 
+-- A cell that its rule cannot divide is an error that names it; the others are divided, and the tissue is whole.
+local function across(c) return c.id == 4 and 0 or 1, 0, 1 end
+for _, options in ipairs { { above = 0.6 }, { where = function() return true end } } do
+  local t = tunica.hexagons { 3, 3 }
+  options.rule, options.direction = "along", across
+  local ok, message = pcall(t.divide, t, options)
+  assert(not ok and message:find("right angles to cell 4 (elsewhere there were 8 divisions)", 1, true), message)
+  check.equal(#t, 17)
+  check.valid(t)
+  check.equal(t:find(4).alive, true)
+  options.rule, options.direction = "errera", nil
+  if options.above then check.equal(t:divide(options), 1) end
+end
+
 -- Where; how many
 check.equal(sheet:divide { where = function(c) return c.border end }, 8)
 check.equal(sheet:divide { above = 0.6, where = function(c) return not c.border end }, 1)

@@ -172,6 +172,27 @@ check.fails(function() disk():advance() end, "'to' is missing")
 check.fails(function() disk():restore "x" end, "")
 check.fails(function() disk():view { colour = "agee" } end, "did you mean 'age'")
 
+-- On a cylinder the ring is given by 'arc': growth that ends there is the same as a way straight down.
+do
+  local growth = tunica.curve { { 0, 1 }, { 1, 1 }, { 1 + 1e-9, 0 }, degree = 1 }
+  local apex = tunica.apex { profile = "cylinder", growth = growth }
+  local function run(ring)
+    ring.samples = 90
+    local model = tunica.phyllotaxis(ring)
+    model:inhibition { field = function(d) return math.exp(-3 * d) end, below = 0.1 }
+    model:advance(12)
+    return model
+  end
+  local on_apex, on_path = run { apex = apex, arc = 1 }, run { path = function(age) return 1, -age end }
+  check.equal(#on_apex.angles, #on_path.angles)
+  check.equal(on_apex:pattern().pair.m, on_path:pattern().pair.m)
+  check.equal(on_apex:pattern().pair.n, on_path:pattern().pair.n)
+  check.equal(tostring(on_apex:pattern()):match "contact pair %b()", "contact pair (2,4)")
+  says(function() run { apex = apex, radius = 1 } end, "rim of the hole at its tip", "by 'arc', between 0 and the profile's length 6")
+  local shrinking = tunica.apex { profile = "cylinder", growth = -1 }
+  says(function() run { apex = shrinking, arc = 1 } end, "(arc 1) does not move away from the tip", "rate of growth that is positive")
+end
+
 -- A model that failed goes on when what was wrong is set right.
 do
   local bad = true

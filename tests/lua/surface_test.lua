@@ -181,6 +181,28 @@ tissue:find(tissue:cells()().id):divide { on = apex }
 expect_places(tissue)
 check.valid(tissue)
 check.equal(tissue:statistics().four_way, 0)
+--- At right angles to a cell's mean plane (twice the vector of its area).
+local function normal_of(c)
+  local x, y, z, corners = 0, 0, 0, {}
+  for j in c:junctions() do corners[#corners + 1] = j end
+  for i, p in ipairs(corners) do
+    local q = corners[i % #corners + 1]
+    local px, py, pz, qx, qy, qz = p.x - c.x, p.y - c.y, p.z - c.z, q.x - c.x, q.y - c.y, q.z - c.z
+    x, y, z = x + py * qz - pz * qy, y + pz * qx - px * qz, z + px * qy - py * qx
+  end
+  return x, y, z
+end
+local whole, number = tissue:cells()().id, #tissue  -- one that is not divided, while others are
+check.fails(function()
+  tissue:divide { above = 0.01, on = apex, rule = "along", direction = function(c)
+    if c.id == whole then return normal_of(c) end
+    return 0, 1, 0.1
+  end }
+end, "right angles to cell " .. whole)
+assert(#tissue > number)
+expect_places(tissue)
+check.valid(tissue)
+check.equal(tissue:statistics().four_way, 0)
 for j in tissue:junctions() do
   local x1, y1, z1 = apex:position(apex:closest(j.x, j.y, j.z))
   check.near(math.abs(x1 - j.x) + math.abs(y1 - j.y) + math.abs(z1 - j.z), 0, 1e-9)

@@ -138,6 +138,32 @@ TEST(Division, KeepsTheGapAndPinches) {
   expect_valid(pinched);
 }
 
+TEST(Division, WhatCannotBeDividedDoesNotHinderTheOthers) {
+  // Cells 5 and 9 get a cut from a wall to itself; all others are halved.
+  const auto stubborn = [](const Tissue& t, Index cell) {
+    const Id id = t.id(Kind::cell, cell);
+    const Index side = t.first_side(cell);
+    return id == 5 || id == 9 ? Cut{side, .4, side, .6} : errera(t, cell);
+  };
+  Tissue tissue = hexagon_disk(2);
+  const Column& amount = declare(tissue, Kind::cell, "amount", 1, Inherit::split);
+  const Index cells = tissue.cells();
+  const double area = tissue.area(0);
+  EXPECT_ERROR(divide_above(tissue, {.area = .6 * area, .variation = 0}, stubborn),
+               "cell 5 cannot be divided there: a daughter or a neighbour would have no area or cross itself; nor can "
+               "another cell (elsewhere there were 17 divisions)");
+  EXPECT_EQ(tissue.cells(), 2 * cells - 2);
+  EXPECT_NE(tissue.find(Kind::cell, 5), none);
+  EXPECT_NE(tissue.find(Kind::cell, 9), none);
+  EXPECT_FALSE(tissue.locked());
+  expect_valid(tissue);
+  EXPECT_NEAR(total(amount), cells, 1e-12);
+  // Nothing is left but these two; another rule divides them.
+  EXPECT_ERROR(divide_above(tissue, {.area = .6 * area, .variation = 0}, stubborn), "(nothing was divided)");
+  EXPECT_EQ(divide_above(tissue, {.area = .6 * area, .variation = 0}, errera), 2);
+  expect_valid(tissue);
+}
+
 TEST(Division, RefusesWhatIsImpossibleAndChangesNothing) {
   Tissue tissue = hexagon_disk(1);
   const std::string before = tissue.hash();
