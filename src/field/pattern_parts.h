@@ -23,7 +23,7 @@ Circular circular(const std::vector<double>& angles, double period = turn);
 
 Figures figures(std::vector<double> values);
 
-/// Mean plastochron of single primordia around each: over up to 8 on either side.
+/// Mean plastochron of single primordia around each: over up to 16 on either side.
 std::vector<double> local_plastochrons(const std::vector<PatternItem>& items);
 
 /// The order of birth mended to follow one generative spiral.

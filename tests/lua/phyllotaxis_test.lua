@@ -185,8 +185,8 @@ do
   end
   local on_apex, on_path = run { apex = apex, arc = 1 }, run { path = function(age) return 1, -age end }
   check.equal(#on_apex.angles, #on_path.angles)
-  check.equal(on_apex:pattern().pair.m, on_path:pattern().pair.m)
-  check.equal(on_apex:pattern().pair.n, on_path:pattern().pair.n)
+  check.equal(on_apex:pattern().pair[1], on_path:pattern().pair[1])
+  check.equal(on_apex:pattern().pair[2], on_path:pattern().pair[2])
   check.equal(tostring(on_apex:pattern()):match "contact pair %b()", "contact pair (2,4)")
   says(function() run { apex = apex, radius = 1 } end, "rim of the hole at its tip", "by 'arc', between 0 and the profile's length 6")
   local shrinking = tunica.apex { profile = "cylinder", growth = -1 }
