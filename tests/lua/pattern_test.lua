@@ -104,3 +104,18 @@ check.fails(function() local l = tunica.read_primordia(written "a\0b") end, "zer
 check.fails(function() local l = tunica.read_primordia "/" end, "cannot read")
 check.fails(function() local l = tunica.read_primordia "no/such/file.csv" end, "cannot read no/such/file.csv")
 os.remove(path)
+
+-- Each figure is explained in share/doc/patterns.md.
+do
+  local text = assert(io.open "../../share/doc/patterns.md"):read "*a"
+  local list = {}
+  for i = 1, 30 do list[i] = { angle = i * 137.5, time = i, radius = 2 ^ ((30 - i) / 10) } end
+  local pattern = tunica.pattern(list, { expected = { angle = 137.5, pair = { 5, 8 } } })
+  local names = 0
+  for name in pairs(pattern) do
+    names = names + 1
+    if name ~= "evidence" then assert(text:find("\n|[^|]*`" .. name .. "[%[`]"), name) end
+  end
+  assert(names > 30, names)
+  for name in pairs(pattern.judgement) do assert(text:find(name, 1, true), name) end
+end
