@@ -58,8 +58,8 @@ function course.operations(owner, inside, example, when)
   op { name = owner .. ":every", changes = true, fn = function(model, interval, fn)
       local dt = inside[model].dt
       if dt and interval < dt / most_in_a_step then
-        fail("%s:every: the interval %.6g is far below the model's step dt = %.6g: more than %d events in a step", owner, interval, dt,
-          most_in_a_step)
+        fail("%s:every: the interval %.6g is far below the model's step dt = %.6g: more than %d events in a step", owner,
+          interval, dt, most_in_a_step)
       end
       local e = course.event("every", interval, fn)
       e.fired = math.floor(model.time / interval + 1e-9)  -- those before now are past
@@ -67,14 +67,16 @@ function course.operations(owner, inside, example, when)
     end,
     args = { { name = "interval", type = "number", above = 0, required = true, unit = "time", doc = "first after one interval" },
       { name = "event", type = "function", required = true, doc = "function(t)" } },
-    doc = "Something that happens at regular times: growth, division.", example = example .. "model:every(1, function(t) print(t) end)" }
+    doc = "Something that happens at regular times: growth, division.",
+    example = example .. "model:every(1, function(t) print(t) end)" }
   op { name = owner .. ":at", changes = true,
     fn = function(model, time, fn) table.insert(inside[model].events, course.event("at", time, fn)) end,
     args = { { name = "time", type = "number", min = 0, required = true, unit = "time", doc = "when" },
       { name = "event", type = "function", required = true, doc = "function(t)" } },
     doc = "Something that happens once.", example = example .. "model:at(2, function() print 'now' end)" }
   op { name = owner .. ":when", changes = true,
-    args = { { name = "condition", type = "function", required = true, doc = "function(t): true or false; it must change nothing" },
+    args = { { name = "condition", type = "function", required = true,
+      doc = "function(t): true or false; it must change nothing" },
       { name = "event", type = "function", required = true, doc = "function(t)" },
       { name = "located", type = "boolean", default = true, doc = when.located } },
     doc = "Something that happens each time a condition becomes true. " .. when.doc, example = example .. when.example,
@@ -82,8 +84,10 @@ function course.operations(owner, inside, example, when)
       table.insert(inside[model].conditions, { test = condition, fn = fn, holds = false, located = located })
     end }
   op { name = owner .. ":report", changes = true, kind = "named", rest = { type = "function" },
-    args = { { name = "every", type = "number", above = 0, unit = "time", doc = "interval of the time series; without it there is none" } },
-    doc = "What the model says at its end, by name: functions that return a number, text or a table. With `every` also as a time series.",
+    args = { { name = "every", type = "number", above = 0, unit = "time",
+      doc = "interval of the time series; without it there is none" } },
+    doc = "What the model says at its end, by name: functions that return a number, text or a table. With `every` also as a " ..
+      "time series.",
     example = example .. "model:report { every = 1, " .. when.report .. " }",
     fn = function(model, o)
       local my = inside[model]
@@ -92,7 +96,8 @@ function course.operations(owner, inside, example, when)
         if name ~= "every" then my.reports[#my.reports + 1] = { name = name, fn = fn } end
       end
     end }
-  op { name = owner .. ":hash", returns = "16 hexadecimal digits", doc = "A fingerprint of everything that changes; equal states have equal ones.",
+  op { name = owner .. ":hash", returns = "16 hexadecimal digits",
+    doc = "A fingerprint of everything that changes; equal states have equal ones.",
     example = example .. "print(model:hash())", fn = function(model) return core.hash(model:snapshot()) end }
 end
 
@@ -123,7 +128,8 @@ end
 function course.check(my, text)
   local script = plain.decode(text, my.tissue)
   if type(script) ~= "table" or #script.fired ~= #my.events or #script.holds ~= #my.conditions then
-    fail("the snapshot is of another script: it has %d events, the model %d", type(script) == "table" and #script.fired or 0, #my.events)
+    fail("the snapshot is of another script: it has %d events, the model %d", type(script) == "table" and #script.fired or 0,
+      #my.events)
   end
 end
 

@@ -21,8 +21,10 @@ registry.type("phyllotaxis", "a model of phyllotaxis", is_phyllotaxis, methods)
 
 -- The model ---------------------------------------------------------------------------------------------------------------
 
-local public = { params = true, name = true, views = true, reports = true, report_every = true, failure = true, stop = true, most = true,
-  apex = true }
+local public = {
+  params = true, name = true, views = true, reports = true, report_every = true, failure = true, stop = true, most = true,
+  apex = true,
+}
 local prepare
 
 local computed = {
@@ -89,7 +91,9 @@ end
 local function ring_of(o)
   if (o.apex == nil) == (o.path == nil) then fail "tunica.phyllotaxis: give either 'apex' and 'radius', or 'path'" end
   if o.apex then
-    if (o.radius == nil) == (o.arc == nil) then fail "tunica.phyllotaxis: say where the ring is on the apex, by 'radius' or by 'arc'" end
+    if (o.radius == nil) == (o.arc == nil) then
+      fail "tunica.phyllotaxis: say where the ring is on the apex, by 'radius' or by 'arc'"
+    end
     local arc = o.arc or o.apex:arc_at_radius(o.radius)
     if o.radius and arc == 0 then
       local length, _, hole = o.apex:measures()
@@ -102,7 +106,8 @@ local function ring_of(o)
   if o.arc then fail "tunica.phyllotaxis: 'arc' is a place on an apex; a path starts on the ring" end
   local x, y = core.call_rule(o.path, 0)
   if type(x) ~= "number" or type(y) ~= "number" then
-    fail("tunica.phyllotaxis: 'path' must be a function(age) that returns x, y; at age 0 it returned %s, %s", core.describe(x), core.describe(y))
+    fail("tunica.phyllotaxis: 'path' must be a function(age) that returns x, y; at age 0 it returned %s, %s", core.describe(x),
+      core.describe(y))
   end
   if o.radius and math.abs(o.radius - x) > 1e-9 * x then
     fail("tunica.phyllotaxis: 'radius' is %.10g, but the path starts at x = %.10g; leave one of them out", o.radius, x)
@@ -117,21 +122,35 @@ local example = header .. [[model:inhibition { field = function(d, age) return m
 ]]
 
 op { name = "tunica.phyllotaxis", kind = "named", returns = "a model of phyllotaxis", source = "thesis 4",
-  doc = "A model of phyllotaxis by inhibition: a ring on a growing apex on which primordia are born. To be given model:inhibition, a start (model:initial, model:primordium), events, views and a report.",
+  doc = "A model of phyllotaxis by inhibition: a ring on a growing apex on which primordia are born. To be given " ..
+    "model:inhibition, a start (model:initial, model:primordium), events, views and a report.",
   args = {
-    { name = "path", type = "function", doc = "function(age) that returns x, y: distance from the axis and height of what was on the ring so long ago; instead of an apex" },
+    { name = "path", type = "function",
+      doc = "function(age) that returns x, y: distance from the axis and height of what was on the ring so long ago; " ..
+        "instead of an apex" },
     { name = "apex", type = "apex", doc = "the growing surface (tunica.apex)" },
     { name = "radius", type = "number", above = 0, unit = "length", doc = "of the ring on the apex" },
-    { name = "arc", type = "number", min = 0, max = 1e12, unit = "length", doc = "arc length from the tip to the ring, instead of its radius" },
-    { name = "samples", type = "integer", min = 3, max = 100000, default = 360, doc = "places on the ring where fields are evaluated" },
-    { name = "jugacy", type = "integer", min = 1, max = 1000, default = 1, doc = "so many primordia at once, evenly spaced; must divide samples. Not 1: imposed, thresholds then are compared with the mean over the places" },
+    { name = "arc", type = "number", min = 0, max = 1e12, unit = "length",
+      doc = "arc length from the tip to the ring, instead of its radius" },
+    { name = "samples", type = "integer", min = 3, max = 100000, default = 360,
+      doc = "places on the ring where fields are evaluated" },
+    { name = "jugacy", type = "integer", min = 1, max = 1000, default = 1,
+      doc = "so many primordia at once, evenly spaced; must divide samples. Not 1: imposed, thresholds then are compared " ..
+        "with the mean over the places" },
     { name = "params", type = "any", doc = "the table that tunica.params gave" },
-    { name = "jitter", type = "table", doc = "{ angle = degrees, along = length }: standard deviations of the places of samples; drawn anew after each insertion" },
-    { name = "tie", type = "number", min = 0, max = 1, default = 1e-9, doc = "fields nearer than this (relative) are equal, and one is drawn" },
-    { name = "tolerance", type = "number", above = 0, max = 1, default = 1e-3, doc = "of the time of an insertion, relative to the plastochron" },
-    { name = "dt", type = "number", above = 0, unit = "time", doc = "longest interval that is searched at once; by default half a plastochron" },
-    { name = "located", type = "boolean", default = true, doc = "false: fixed steps of dt, insertions at their ends; to compare with" },
-    { name = "drop", type = "number", min = 0, below = 1, default = 1e-9, doc = "old primordia are left out while their share in the fields is below this part of the threshold, now and later" },
+    { name = "jitter", type = "table",
+      doc = "{ angle = degrees, along = length }: standard deviations of the places of samples; drawn anew after each " ..
+        "insertion" },
+    { name = "tie", type = "number", min = 0, max = 1, default = 1e-9,
+      doc = "fields nearer than this (relative) are equal, and one is drawn" },
+    { name = "tolerance", type = "number", above = 0, max = 1, default = 1e-3,
+      doc = "of the time of an insertion, relative to the plastochron" },
+    { name = "dt", type = "number", above = 0, unit = "time",
+      doc = "longest interval that is searched at once; by default half a plastochron" },
+    { name = "located", type = "boolean", default = true,
+      doc = "false: fixed steps of dt, insertions at their ends; to compare with" },
+    { name = "drop", type = "number", min = 0, below = 1, default = 1e-9,
+      doc = "old primordia are left out while their share in the fields is below this part of the threshold, now and later" },
     { name = "most", type = "integer", min = 10, max = 1000000, default = 5000, doc = "and beyond so many, with a warning" },
     { name = "stop", type = "number|table", doc = "when a batch run ends: a time, or { primordia = n }" },
   },
@@ -146,17 +165,24 @@ op { name = "tunica.phyllotaxis", kind = "named", returns = "a model of phyllota
     if o.samples % o.jugacy ~= 0 then
       fail("tunica.phyllotaxis: 'samples' must be a multiple of the jugacy: %d samples, jugacy %d", o.samples, o.jugacy)
     end
-    if not o.located and not o.dt then fail "tunica.phyllotaxis: 'dt' is missing: with located = false steps have a fixed length" end
+    if not o.located and not o.dt then
+      fail "tunica.phyllotaxis: 'dt' is missing: with located = false steps have a fixed length"
+    end
     local ring, jitter = ring_of(o), o.jitter or {}
     local engine
-    engine, ring.radius, ring.height = core.inhibition { apex = ring.apex, arc = ring.arc, radius = ring.radius, height = ring.height,
-      track = ring.track, samples = o.samples, jugacy = o.jugacy, tie = o.tie, tolerance = o.tolerance, dt = o.dt or 0, located = o.located, drop = o.drop,
-      most = o.most, jitter_angle = math.rad(jitter.angle or 0), jitter_along = jitter.along or 0 }
+    engine, ring.radius, ring.height = core.inhibition {
+      apex = ring.apex, arc = ring.arc, radius = ring.radius, height = ring.height, track = ring.track,
+      samples = o.samples, jugacy = o.jugacy, tie = o.tie, tolerance = o.tolerance, dt = o.dt or 0, located = o.located,
+      drop = o.drop, most = o.most, jitter_angle = math.rad(jitter.angle or 0), jitter_along = jitter.along or 0,
+    }
     local stop = type(o.stop) == "table" and o.stop or { time = o.stop }
     local model = setmetatable({}, meta)
-    inside[model] = { engine = engine, ring = ring, apex = o.apex, params = o.params or params.current(), jugacy = o.jugacy, samples = o.samples,
-      stop = o.stop and (stop.time or endless), most = stop.primordia, rules = {}, starts = {}, events = {}, conditions = {}, views = {},
-      reports = {}, warnings = {}, seconds = 0, tolerance = o.tolerance, tie = o.tie, drop = o.drop, located = o.located }
+    inside[model] = {
+      engine = engine, ring = ring, apex = o.apex, params = o.params or params.current(), jugacy = o.jugacy,
+      samples = o.samples, stop = o.stop and (stop.time or endless), most = stop.primordia, rules = {}, starts = {},
+      events = {}, conditions = {}, views = {}, reports = {}, warnings = {}, seconds = 0, tolerance = o.tolerance,
+      tie = o.tie, drop = o.drop, located = o.located,
+    }
     return model
   end }
 
@@ -171,9 +197,12 @@ local function is_callable(value)
 end
 
 op { name = "phyllotaxis:inhibition", changes = true, kind = "named", source = "thesis 4.1-4.5",
-  doc = "An inhibitor: each primordium adds f(distance, age) to its field. A place of the ring is a candidate where the field is below the threshold, for every inhibitor; the candidate with the lowest field of the first inhibitor is where a primordium is born. Then fields are computed again, and so on at the same time until there is no candidate.",
+  doc = "An inhibitor: each primordium adds f(distance, age) to its field. A place of the ring is a candidate where the " ..
+    "field is below the threshold, for every inhibitor; the candidate with the lowest field of the first inhibitor is where " ..
+    "a primordium is born. Then fields are computed again, and so on at the same time until there is no candidate.",
   args = {
-    { name = "field", type = "function", required = true, doc = "function(d, age, t): share of a primordium of this age at distance d; its unit is that of the threshold" },
+    { name = "field", type = "function", required = true,
+      doc = "function(d, age, t): share of a primordium of this age at distance d; its unit is that of the threshold" },
     { name = "below", type = "any", required = true, doc = "threshold: a number, a function(t), or a curve over time" },
   },
   example = example .. "model:advance(1) print(#model.angles)",
@@ -208,7 +237,8 @@ local function difference(my, k, rule)
       local computed_as, direct = core.inhibition_share(my.engine, k, d, age, time), core.call_rule(rule.fn, d, age, time)
       local same = computed_as == direct or computed_as ~= computed_as and direct ~= direct
       if not same and not (math.abs(computed_as - direct) <= 1e-9 * math.max(math.abs(direct), 1e-3)) then
-        return string.format("evaluated directly it gives %.12g at distance %g and age %g, traced %.12g: it decides something by the values",
+        return string.format("evaluated directly it gives %.12g at distance %g and age %g, traced %.12g: it decides " ..
+          "something by the values",
           direct, d, age, computed_as)
       end
     end
@@ -244,7 +274,9 @@ end
 --- Fields as the script has them now; and, the first time, the primordia from which the run starts.
 function prepare(my)
   if core.in_rule() then fail "a model cannot be run, saved or looked into from inside its own fields and thresholds" end
-  if #my.rules == 0 then fail "the model has no inhibition: model:inhibition { field = function(d, age) ... end, below = ... }" end
+  if #my.rules == 0 then
+    fail "the model has no inhibition: model:inhibition { field = function(d, age) ... end, below = ... }"
+  end
   local held = held_values(my)
   if held ~= my.held then
     bind(my)
@@ -265,18 +297,26 @@ end
 -- Start -----------------------------------------------------------------------------------------------------------------------
 
 op { name = "phyllotaxis:initial", changes = true, kind = "named",
-  doc = "Starts from a lattice: whorls at a constant divergence angle and a constant plastochron, old enough that the next one is due at time 0 and angle 0. Without a spacing the plastochron is that at which the field of these whorls is at the threshold of the first inhibitor.",
-  args = { { name = "count", type = "integer", min = 1, max = 100000, required = true, doc = "primordia in all; a multiple of the jugacy" },
+  doc = "Starts from a lattice: whorls at a constant divergence angle and a constant plastochron, old enough that the next " ..
+    "one is due at time 0 and angle 0. Without a spacing the plastochron is that at which the field of these whorls is at " ..
+    "the threshold of the first inhibitor.",
+  args = { { name = "count", type = "integer", min = 1, max = 100000, required = true,
+    doc = "primordia in all; a multiple of the jugacy" },
     { name = "angle", type = "number", required = true, unit = "degrees", doc = "from one primordium (whorl) to the next" },
-    { name = "jugacy", type = "integer", min = 1, max = 1000, doc = "primordia at once, evenly spaced; that of the model if not given" },
+    { name = "jugacy", type = "integer", min = 1, max = 1000,
+      doc = "primordia at once, evenly spaced; that of the model if not given" },
     { name = "spacing", type = "number", above = 0, unit = "time", doc = "from one primordium (whorl) to the next" } },
   example = example .. "model:initial { count = 20, angle = 137.51 } model:advance(1) print(#model.angles)",
   fn = function(model, o)
     local my = inside[model]
     if my.started or #my.starts > 0 then fail "phyllotaxis:initial: the model has its start already" end
     local jugacy = o.jugacy or my.jugacy
-    if o.count % jugacy ~= 0 then fail("phyllotaxis:initial: 'count' must be a multiple of the jugacy %d, came %d", jugacy, o.count) end
-    my.starts[1] = function() my.spacing = core.inhibition_lattice(my.engine, o.count / jugacy, math.rad(o.angle), jugacy, o.spacing) end
+    if o.count % jugacy ~= 0 then
+      fail("phyllotaxis:initial: 'count' must be a multiple of the jugacy %d, came %d", jugacy, o.count)
+    end
+    my.starts[1] = function()
+      my.spacing = core.inhibition_lattice(my.engine, o.count / jugacy, math.rad(o.angle), jugacy, o.spacing)
+    end
   end }
 
 op { name = "phyllotaxis:primordium", changes = true, kind = "named",
@@ -290,7 +330,7 @@ op { name = "phyllotaxis:primordium", changes = true, kind = "named",
     if my.started then start() else my.starts[#my.starts + 1] = start end
   end }
 
--- The rest of it ------------------------------------------------------------------------------------------------------------------
+-- The rest of it ------------------------------------------------------------------------------------------------------
 
 local parts = { inside = inside, methods = methods, prepare = prepare, example = example, warn = warn, endless = endless }
 for _, part in ipairs { "running", "looking" } do require("tunica.phyllotaxis." .. part)(parts) end

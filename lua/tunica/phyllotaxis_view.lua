@@ -102,7 +102,8 @@ local function ring_of(my, arc)
   local order = {}
   for i = 1, #values do order[i] = { math.deg(angles[i]) % 360, values[i] } end
   table.sort(order, function(a, b) return a[1] < b[1] end)  -- jitter may have moved one past another
-  local ring = { arc = arc, radius = my.ring.radius, values = {}, angles = {}, chosen = math.deg((core.inhibition_minimum(my.engine))) }
+  local ring = { arc = arc, radius = my.ring.radius, values = {}, angles = {},
+    chosen = math.deg((core.inhibition_minimum(my.engine))) }
   for _, each in ipairs(order) do
     if each[1] ~= ring.angles[#ring.angles] then
       ring.angles[#ring.angles + 1] = each[1]
@@ -215,13 +216,14 @@ model:inhibition { field = function(d, age) return math.exp(-age) / d end, below
 ]]
 
 op { name = "phyllotaxis:view", kind = "named", source = "thesis figs. 4.2, 4.6, 4.9, 4.12",
-  args = with { { name = "every", type = "number", above = 0, unit = "time", doc = "between pictures; without it, one at the end" },
+  args = with { { name = "every", type = "number", above = 0, unit = "time",
+    doc = "between pictures; without it, one at the end" },
     { name = "name", type = "string", doc = "of the pictures' folder, where a model has several views" },
     { name = "plot", type = "string", choices = { "divergence", "threshold", "field" },
       doc = "not the apex but a plot, see phyllotaxis:plot" },
     { name = "lines", type = "list", of = "number|table", doc = "straight lines through the plot" } },
-  doc = "How the model is to be shown: the apex with its primordia, unrolled, or as a plot. A run writes a picture every so often, and one " ..
-    "at its end.",
+  doc = "How the model is to be shown: the apex with its primordia, unrolled, or as a plot. A run writes a picture every so " ..
+    "often, and one at its end.",
   example = example .. [[model:view { colour = "age", from = "top", every = 0.5 }]],
   fn = function(model, given)
     apex_view.settings(given, others)
@@ -249,8 +251,9 @@ op { name = "phyllotaxis:plot", kind = "named", returns = "the path, or paths", 
   args = { { name = "file", type = "string|list", of = "string", count = { 1, 10 }, required = true, position = 1,
       doc = "path that ends in .png or .svg, or a list of such; replaced if they are there" },
     { name = "show", type = "string", choices = { "divergence", "threshold", "field" }, default = "divergence",
-      doc = "the divergence angle of each primordium; 'threshold': against the first inhibitor's threshold when it was born (what a " ..
-        "function of time says of that time now), as transitions are shown; 'field': that inhibitor's field around the ring" },
+      doc = "the divergence angle of each primordium; 'threshold': against the first inhibitor's threshold when it was born " ..
+        "(what a function of time says of that time now), as transitions are shown; 'field': that inhibitor's field around " ..
+        "the ring" },
     { name = "lines", type = "list", of = "number|table", doc = "straight lines through the plot, as in tunica.plot: { 137.5 }" },
     { name = "title", type = "string", doc = "above the plot" },
     { name = "yrange", type = "list", of = "number", count = { 2, 2 }, doc = "{ low, high }" } },

@@ -131,7 +131,8 @@ op { name = "contour:save", args = { file }, fn = function(self, path) core.save
 local curve = 'local f = tunica.curve { { 0, 0.2 }, { 1, 1 }, { 2, 0 } }\n'
 local x = { name = "x", type = "number", required = true, doc = "place" }
 op { name = "curve:derivative", args = { x }, returns = "a number",
-  doc = "The slope of the curve at x, from the right; 0 outside.", fn = core.curve_derivative, example = example(curve .. "print(f:derivative(0.5))") }
+  doc = "The slope of the curve at x, from the right; 0 outside.", fn = core.curve_derivative,
+  example = example(curve .. "print(f:derivative(0.5))") }
 op { name = "curve:integral", returns = "a number",
   args = { { name = "from", type = "number", required = true, doc = "start" },
     { name = "to", type = "number", required = true, doc = "end" } },

@@ -9,7 +9,7 @@ return function(parts)
 
 local inside, methods, prepare, example = parts.inside, parts.methods, parts.prepare, parts.example
 
--- What there is -------------------------------------------------------------------------------------------------------------------
+-- What there is -------------------------------------------------------------------------------------------------------
 
 --- In (-180, 180].
 local function turn(from, to)
@@ -17,8 +17,10 @@ local function turn(from, to)
   return angle - 360 * math.ceil((angle - 180) / 360)
 end
 
-op { name = "phyllotaxis:primordia", returns = "a list of { number, angle, time, age, a, x, y, z, radius, divergence, jugacy, initial }",
-  doc = "All primordia, the oldest first: angle and divergence (from the one before, -180 to 180) in degrees, time of birth, age, arc length from the tip (a, on an apex), place in space, distance from the axis (radius).",
+op { name = "phyllotaxis:primordia",
+  returns = "a list of { number, angle, time, age, a, x, y, z, radius, divergence, jugacy, initial }",
+  doc = "All primordia, the oldest first: angle and divergence (from the one before, -180 to 180) in degrees, time of " ..
+    "birth, age, arc length from the tip (a, on an apex), place in space, distance from the axis (radius).",
   example = example .. "model:advance(1) for _, p in ipairs(model:primordia()) do print(p.number, p.angle, p.age) end",
   fn = function(model)
     local my = inside[model]
@@ -39,7 +41,8 @@ op { name = "phyllotaxis:primordia", returns = "a list of { number, angle, time,
 
 --- For the run directory: primordia.csv.
 function methods.table_of(model)
-  local lines, list, columns = {}, model:primordia(), { "number", "time", "angle", "divergence", "plastochron", "x", "y", "z", "initial" }
+  local columns = { "number", "time", "angle", "divergence", "plastochron", "x", "y", "z", "initial" }
+  local lines, list = {}, model:primordia()
   lines[1] = table.concat(columns, ",")
   for i, p in ipairs(list) do
     p.plastochron = list[i - 1] and p.time - list[i - 1].time
@@ -56,15 +59,20 @@ end
 op { name = "phyllotaxis:field", returns = "a number",
   doc = "The field of an inhibitor now, at a place on the ring or elsewhere.",
   args = { { name = "theta", type = "number", required = true, unit = "degrees", doc = "angle of the place" },
-    { name = "a", type = "number", min = 0, max = 1e12, unit = "length", doc = "its arc length from the tip of the apex; that of the ring if not given. Of a model without an apex: its distance from the axis" },
-    { name = "y", type = "number", unit = "length", doc = "its height, of a model without an apex; that of the ring if not given" },
+    { name = "a", type = "number", min = 0, max = 1e12, unit = "length",
+      doc = "its arc length from the tip of the apex; that of the ring if not given. Of a model without an apex: its " ..
+        "distance from the axis" },
+    { name = "y", type = "number", unit = "length",
+      doc = "its height, of a model without an apex; that of the ring if not given" },
     { name = "which", type = "integer", min = 1, max = 8, default = 1, doc = "number of the inhibitor" } },
   example = example .. "model:primordium { angle = 0 } print(model:field(180))",
   fn = function(model, theta, a, y, which)
     local my = inside[model]
     prepare(my)
     if which > #my.rules then fail("phyllotaxis:field: there are %d inhibitors, came number %d", #my.rules, which) end
-    if y and my.apex then fail "phyllotaxis:field: 'y' is of a model without an apex; here the arc length says where the place is" end
+    if y and my.apex then
+      fail "phyllotaxis:field: 'y' is of a model without an apex; here the arc length says where the place is"
+    end
     local x = a
     if a and my.apex then x, y = my.apex:position(0, a) end
     return core.inhibition_value(my.engine, which, math.rad(theta), x or my.ring.radius, y or my.ring.height)
@@ -72,7 +80,8 @@ op { name = "phyllotaxis:field", returns = "a number",
 
 op { name = "phyllotaxis:pattern", kind = "named", returns = "what tunica.pattern gives",
   doc = "What the pattern of its primordia is, those of the start left out: see tunica.pattern.",
-  args = { { name = "first", type = "integer", min = 1, doc = "number of the first primordium that counts; by default the first one that the run inserted" },
+  args = { { name = "first", type = "integer", min = 1,
+    doc = "number of the first primordium that counts; by default the first one that the run inserted" },
     { name = "last", type = "integer", min = 1, doc = "number of the last one; by default the youngest" },
     { name = "jugacy", type = "integer", min = 1, max = 1000, doc = "found if left out, or imposed by the model" },
     { name = "expected", type = "table", doc = "{ angle =, jugacy =, pair = { m, n } }" } },
@@ -96,11 +105,12 @@ op { name = "phyllotaxis:minimum", returns = "the angle (degrees), the field the
     return math.deg(angle), value, candidate
   end }
 
--- For the record ------------------------------------------------------------------------------------------------------------------
+-- For the record ------------------------------------------------------------------------------------------------------
 
 --- For charts of methods, which are of models with rates.
 function methods.state_columns()
-  fail "a model of phyllotaxis has no rates, so there are no methods of integration to compare; its accuracy is set by samples and tolerance"
+  fail("a model of phyllotaxis has no rates, so there are no methods of integration to compare; its accuracy is set by " ..
+    "samples and tolerance")
 end
 
 --- What the model has cost since it was made.
@@ -122,8 +132,8 @@ function methods.describe(model)
   local seconds = counts.seconds
   counts.seconds = nil
   return { method = "inhibition", title = my.located and "insertions located in time" or "insertions at the ends of fixed steps",
-    samples = my.samples, jugacy = my.jugacy, tolerance = my.tolerance, tie = my.tie, drop = my.drop, spacing = my.spacing, rules = listed,
-    warnings = my.warnings, counts = counts,
+    samples = my.samples, jugacy = my.jugacy, tolerance = my.tolerance, tie = my.tie, drop = my.drop, spacing = my.spacing,
+    rules = listed, warnings = my.warnings, counts = counts,
     cost = { seconds = seconds, ns_per_pair = counts.pairs > 0 and seconds / counts.pairs * 1e9 or nil } }
 end
 

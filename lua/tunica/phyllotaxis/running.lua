@@ -13,13 +13,15 @@ local inside, _, prepare, example = parts.inside, parts.methods, parts.prepare, 
 -- Events ------------------------------------------------------------------------------------------------------------------------
 
 course.operations("phyllotaxis", inside, example, {
-  doc = "It is asked at the start, after events and insertions, and between insertions, where the time is found at which it became true.",
+  doc = "It is asked at the start, after events and insertions, and between insertions, where the time is found at which it " ..
+    "became true.",
   located = "false: it is asked only after insertions and search intervals, and its time is not found",
   example = "model:when(function(t) return #model.angles > 5 end, function(t) print(t) end)",
   report = "primordia = function() return #model.angles end" })
 
 op { name = "phyllotaxis:after", changes = true,
-  args = { { name = "count", type = "integer", min = 1, required = true, doc = "number of the primordium; those of the start count" },
+  args = { { name = "count", type = "integer", min = 1, required = true,
+    doc = "number of the primordium; those of the start count" },
     { name = "event", type = "function", required = true, doc = "function(t)" } },
   doc = "Something that happens once, when the model has so many primordia: a threshold is changed, say.",
   example = example .. "model:after(4, function(t) print(t) end) model:advance(1)",
@@ -58,7 +60,8 @@ local function any_becomes(my, time)
   return false
 end
 
---- The earliest time from `low` to `high`, between which nothing is inserted, at which a condition becomes true; nil if none does.
+--- The earliest time from `low` to `high`, between which nothing is inserted, at which a condition becomes true; nil if none
+-- does.
 local function locate(my, low, high)
   local function holds_at(time)
     core.inhibition_show(my.engine, time)
@@ -89,7 +92,8 @@ local function check_patience(my, s)
   local since = math.max(s.last_birth, 0)
   if my.most and s.count > 0 and s.time - since > 1e4 * scale then
     local angle, value = core.inhibition_minimum(my.engine)
-    fail("no place on the ring has been below the threshold since t = %.6g (now t = %.6g): the lowest field of the first inhibition is %.6g, at %.4g degrees; the run was to end with %d primordia and has %d",
+    fail("no place on the ring has been below the threshold since t = %.6g (now t = %.6g): the lowest field of the first " ..
+      "inhibition is %.6g, at %.4g degrees; the run was to end with %d primordia and has %d",
       since, s.time, value, math.deg(angle), my.most, s.count)
   end
 end
@@ -145,8 +149,10 @@ local function advance(model, o)
 end
 
 op { name = "phyllotaxis:advance", kind = "named", returns = "'done', 'paused', 'out of time' or 'interrupted'",
-  doc = "Runs the model to a time, or to the number of primordia at which it stops, events included. How often it pauses changes no primordium.",
-  args = { { name = "to", type = "number", position = 1, unit = "time", doc = "until when; may be left out if the model stops with a number of primordia" },
+  doc = "Runs the model to a time, or to the number of primordia at which it stops, events included. How often it pauses " ..
+    "changes no primordium.",
+  args = { { name = "to", type = "number", position = 1, unit = "time",
+    doc = "until when; may be left out if the model stops with a number of primordia" },
     { name = "pause", type = "number", infinite = true, unit = "time", doc = "stop then" },
     { name = "seconds", type = "number", min = 0, unit = "s", doc = "stop after so much time on the clock" } },
   example = example .. "model:advance { to = 1 } print(model.time)",
@@ -154,7 +160,9 @@ op { name = "phyllotaxis:advance", kind = "named", returns = "'done', 'paused', 
     local my = inside[model]
     if my.advancing then fail "phyllotaxis:advance cannot be called while the model runs, in an event or a condition" end
     o.to = o.to or my.most and parts.endless
-    if not o.to then fail "phyllotaxis:advance: 'to' is missing: until when? (Or stop = { primordia = n } in tunica.phyllotaxis)" end
+    if not o.to then
+      fail "phyllotaxis:advance: 'to' is missing: until when? (Or stop = { primordia = n } in tunica.phyllotaxis)"
+    end
     my.advancing = true
     local begun = core.now()
     local ok, status = pcall(advance, model, o)
@@ -170,15 +178,18 @@ op { name = "phyllotaxis:advance", kind = "named", returns = "'done', 'paused', 
 -- What changes, as bytes -------------------------------------------------------------------------------------------------------
 
 op { name = "phyllotaxis:snapshot", returns = "text", example = example .. "print(#model:snapshot())",
-  doc = "Everything that changes during a run: primordia, time, events, parameters, and the plain values that functions of the model keep.",
+  doc = "Everything that changes during a run: primordia, time, events, parameters, and the plain values that functions of " ..
+    "the model keep.",
   fn = function(model)
     local my = inside[model]
     prepare(my)
     return core.pack { inhibition = core.inhibition_save(my.engine), random = core.random_state(), script = course.save(my) }
   end }
 
-op { name = "phyllotaxis:restore", changes = true, args = { { name = "snapshot", type = "string", required = true, doc = "what model:snapshot() gave" } },
-  doc = "Goes back to a snapshot of the same script.", example = example .. "local s = model:snapshot() model:advance(1) model:restore(s) print(model.time)",
+op { name = "phyllotaxis:restore", changes = true,
+  args = { { name = "snapshot", type = "string", required = true, doc = "what model:snapshot() gave" } },
+  doc = "Goes back to a snapshot of the same script.",
+  example = example .. "local s = model:snapshot() model:advance(1) model:restore(s) print(model.time)",
   fn = function(model, bytes)
     local my = inside[model]
     local parts = core.unpack(bytes)

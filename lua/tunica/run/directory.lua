@@ -84,7 +84,8 @@ function directory.save_sources(folder, main)
     if not seen[key] then
       seen[key] = true
       local copy, asked = place_of(source, home)
-      local entry = { path = core.absolute_path(source.path), copy = "script/" .. copy, hash = core.hash(source.text), asked = asked }
+      local entry = { path = core.absolute_path(source.path), copy = "script/" .. copy, hash = core.hash(source.text),
+        asked = asked }
       core.mkdir(folder_of(folder .. "/" .. entry.copy))
       core.write_atomic(folder .. "/" .. entry.copy, source.text)
       if source.asked then found.files[#found.files + 1] = entry
