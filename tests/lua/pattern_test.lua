@@ -107,7 +107,7 @@ os.remove(path)
 
 -- Each figure is explained in share/doc/patterns.md.
 do
-  local text = assert(io.open "../../share/doc/patterns.md"):read "*a"
+  local text = assert(io.open((arg[0]:match "^.*/" or "./") .. "../../share/doc/patterns.md")):read "*a"
   local list = {}
   for i = 1, 30 do list[i] = { angle = i * 137.5, time = i, radius = 2 ^ ((30 - i) / 10) } end
   local pattern = tunica.pattern(list, { expected = { angle = 137.5, pair = { 5, 8 } } })
