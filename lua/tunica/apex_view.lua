@@ -97,6 +97,16 @@ function apex_view.settings(given, also)
   if type(given.legend) == "string" then out.legend_title = given.legend end
   out.legend = given.legend ~= false
   if type(given.title) == "string" then out.title = given.title end  -- a function is called by who knows the time
+  if given.lattice and (given.arrows or given.colour == "field") then
+    fail("a lattice shows no field: leave out lattice, or %s", given.arrows and "arrows" or "colour = 'field'")
+  end
+  if type(given.parastichies) == "table" then
+    for _, number in ipairs(given.parastichies) do
+      if not (number >= 1 and number <= 10000) then
+        fail("parastichies: two numbers from 1 to 10000, { 5, 8 }, came { %.14g, %.14g }", given.parastichies[1], given.parastichies[2])
+      end
+    end
+  end
   out.parastichies = given.parastichies and true or nil
   if given.lattice then out.lattice = given.lattice == true and "angles" or given.lattice end
   check_size(given, out)

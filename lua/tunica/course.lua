@@ -57,6 +57,9 @@ end
 function course.operations(owner, inside, example, when)
   op { name = owner .. ":every", changes = true, fn = function(model, interval, fn)
       local dt = inside[model].dt
+      if not dt and interval < 1e-9 * math.max(1, model.time) then
+        fail("%s:every: the interval %.6g is so short that time would not move on", owner, interval)
+      end
       if dt and interval < dt / most_in_a_step then
         fail("%s:every: the interval %.6g is far below the model's step dt = %.6g: more than %d events in a step", owner,
           interval, dt, most_in_a_step)

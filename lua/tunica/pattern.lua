@@ -153,6 +153,10 @@ op { name = "tunica.read_primordia", kind = "named", returns = "a list for tunic
     local records = csv.read(t.file)
     if not records[1] then fail("%s: the file is empty", t.file) end
     local at, list = find_columns(t.file, records[1]), {}
-    for i = 2, #records do list[i - 1] = primordium(t.file, records[i], at, list[i - 2]) end
+    -- A divergence in the first line is that from one more, at angle 0.
+    if at.divergence and not at.angle and not (at.x and at.z) and records[2] and number_at(t.file, records[2], at, "divergence") then
+      list[1] = { angle = 0 }
+    end
+    for i = 2, #records do list[#list + 1] = primordium(t.file, records[i], at, list[#list]) end
     return list
   end }

@@ -230,18 +230,27 @@ local function warn(my, text)
 end
 
 --- Compares what was traced with the function itself. Returns nil, or how they differ.
-local function difference(my, k, rule)
-  local time = core.inhibition_state(my.engine).time
+local function difference_at(my, k, rule, time)
   for _, age in ipairs { 0, 1e-3, 0.1, 1, 7 } do
     for _, d in ipairs { 0.01, 0.3, 1, 2.5 } do
       local computed_as, direct = core.inhibition_share(my.engine, k, d, age, time), core.call_rule(rule.fn, d, age, time)
       local same = computed_as == direct or computed_as ~= computed_as and direct ~= direct
       if not same and not (math.abs(computed_as - direct) <= 1e-9 * math.max(math.abs(direct), 1e-3)) then
-        return string.format("evaluated directly it gives %.12g at distance %g and age %g, traced %.12g: it decides " ..
-          "something by the values",
-          direct, d, age, computed_as)
+        return string.format("evaluated directly it gives %.12g at distance %g, age %g and time %g, traced %.12g: it " ..
+          "decides something by the values", direct, d, age, time, computed_as)
       end
     end
+  end
+end
+
+--- Whether a rule is told the time.
+local function timed(fn) return debug.getinfo(fn, "u").nparams >= 3 or debug.getinfo(fn, "u").isvararg end
+
+local function difference(my, k, rule)
+  local now = core.inhibition_state(my.engine).time
+  for _, later in ipairs(timed(rule.fn) and { 0, 0.1, 1, 2, 10, 100, 1000 } or { 0 }) do
+    local found = difference_at(my, k, rule, now + later)
+    if found then return found end
   end
 end
 
@@ -249,11 +258,11 @@ local function bind(my)
   local values = values_of(my)
   for k, rule in ipairs(my.rules) do
     local below = rule.below
-    local reason = rules.with_symbols(rule.fn, core.inhibition_field, my.engine, k, rule.fn, below, values, false)
+    local reason = rules.with_symbols(rule.fn, core.inhibition_field, my.engine, k, rule.fn, below, values, false, timed(rule.fn))
       or difference(my, k, rule)
     rule.direct = reason
     if reason then
-      core.inhibition_field(my.engine, k, rule.fn, below, values, true)
+      core.inhibition_field(my.engine, k, rule.fn, below, values, true, timed(rule.fn))
       warn(my, string.format("%s: this field is run by the interpreter, some hundred times slower: %s", rule.where, reason))
     end
   end
@@ -267,8 +276,19 @@ local function held_values(my)
     functions[#functions + 1] = rule.fn
     if type(rule.below) == "function" then functions[#functions + 1] = rule.below end
   end
+  if type(my.ring.track) == "function" then functions[#functions + 1] = my.ring.track end
   for name, value in pairs(values_of(my)) do all[name] = value end
   return plain.encode { plain.upvalues(functions), all }
+end
+
+--- After events: what rules read from elsewhere (globals, tables) may have changed, though nothing they hold has.
+local function refresh(my)
+  local varying = false
+  for k, rule in ipairs(my.rules) do
+    if not rule.direct and difference_at(my, k, rule, core.inhibition_state(my.engine).time) then my.held = nil end
+    varying = varying or rule.direct or type(rule.below) == "function"
+  end
+  if varying then core.inhibition_reconsider(my.engine) end
 end
 
 --- Fields as the script has them now; and, the first time, the primordia from which the run starts.
@@ -332,7 +352,7 @@ op { name = "phyllotaxis:primordium", changes = true, kind = "named",
 
 -- The rest of it ------------------------------------------------------------------------------------------------------
 
-local parts = { inside = inside, methods = methods, prepare = prepare, example = example, warn = warn, endless = endless }
+local parts = { inside = inside, methods = methods, prepare = prepare, refresh = refresh, example = example, warn = warn, endless = endless }
 for _, part in ipairs { "running", "looking" } do require("tunica.phyllotaxis." .. part)(parts) end
 
 return { is_phyllotaxis = is_phyllotaxis, inside = inside }

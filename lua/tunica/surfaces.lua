@@ -123,6 +123,9 @@ op { name = "tunica.bulges", kind = "named", returns = "a surface", source = "th
     "counts, smoothly. The surface has a time, which tissue:grow { on = surface } moves on. A checkpoint holds its primordia " ..
     "if it is a local of the script that functions of the model use.",
   fn = function(t)
+    if is_bulging(t.on) then
+      fail "tunica.bulges: this surface bulges already; add the primordia to it (bulges:add), or lay both on what is below"
+    end
     local object = core.bulges(surfaces.core_of(t.on), t.radius, t.height)
     local surface = wrap(object, true)
     inside[surface].base = t.on

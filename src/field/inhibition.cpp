@@ -82,7 +82,9 @@ void Inhibition::add_field(InhibitionField field) {
 Vec2 Inhibition::track(double age) const {
   constexpr double far = 1e100;
   const Vec2 place = settings_.track(std::max(0.0, age));
-  return {std::min(std::fabs(place.x()), far), std::clamp(place.y(), -far, far)};
+  if (place.x() < 0)
+    fail("the path crosses the axis: at age {:.6g} it is at x = {:.6g}; x is the distance from the axis", age, place.x());
+  return {std::min(place.x(), far), std::clamp(place.y(), -far, far)};
 }
 
 std::pair<Index, Index> Inhibition::neighbours(size_t primordium) const {
@@ -210,6 +212,12 @@ int Inhibition::choose(double t) {
   double lowest = INFINITY;
   for (int s = 0; s < places(); ++s)
     if (candidate(s)) candidates.push_back(s), lowest = std::min(lowest, decisive(0, s));
+  if (candidates.empty())
+    fail(
+        "at t = {:.9g} there was room for a primordium when it was looked for, and is none now: a field, a threshold "
+        "or "
+        "the path depends on something that changes as it is called (a random number, a counter)",
+        t);
   std::erase_if(candidates, [&](int s) { return decisive(0, s) > lowest + settings_.tie * std::fabs(lowest); });
   const double u = uniform({settings_.seed, purpose("choice among ties"), draws_, 0});
   return candidates.at(static_cast<size_t>(u * static_cast<double>(candidates.size())));
@@ -255,7 +263,7 @@ void Inhibition::add_primordium(double angle, double age) {
   if (!primordia_.empty() && time_ - age < primordia_.back().birth)
     fail("primordia are given from the oldest to the youngest; one of age {:.6g} came after one of age {:.6g}", age,
          time_ - primordia_.back().birth);
-  primordia_.push_back({positive_angle(angle), time_ - age, true});
+  primordia_.push_back({positive_angle(angle), time_ - age, time_ <= 0});
   changed();
 }
 
@@ -294,6 +302,9 @@ Inhibition::Minimum Inhibition::minimum() {
 // === Saving
 
 void Inhibition::save(ByteWriter& out) const {
+  out.put(static_cast<int32_t>(settings_.samples));
+  out.put(static_cast<int32_t>(settings_.jugacy));
+  out.put(static_cast<int32_t>(fields_.size()));
   out.put(time_);
   out.put(from_);
   out.put(draws_);
@@ -309,6 +320,10 @@ void Inhibition::save(ByteWriter& out) const {
 }
 
 void Inhibition::load(ByteReader& in) {
+  const auto samples = in.get<int32_t>(), jugacy = in.get<int32_t>(), fields = in.get<int32_t>();
+  if (samples != settings_.samples || jugacy != settings_.jugacy || fields != static_cast<int32_t>(fields_.size()))
+    fail("the snapshot is of a model with {} samples, jugacy {} and {} inhibitions; this one has {}, {} and {}",
+         samples, jugacy, fields, settings_.samples, settings_.jugacy, fields_.size());
   const auto time = in.get<double>(), from = in.get<double>();
   const auto draws = in.get<uint64_t>(), steps = in.get<uint64_t>();
   const bool recount = in.get<uint8_t>() != 0;

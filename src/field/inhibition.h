@@ -29,6 +29,8 @@ struct Primordium {
 struct InhibitionField {
   std::unique_ptr<FieldRule> rule;
   std::function<double(double t)> threshold;
+  bool varies = false;       ///< the threshold changes with time, or the rule: nothing follows from a pause
+  bool rule_varies = false;  ///< the rule's shares depend on time, not only on age: old primordia are never left out
 };
 
 struct InhibitionSettings {
@@ -83,8 +85,11 @@ class Inhibition {
   void show(double t);
   /// Parameters or thresholds have changed: what was found for times to come is void, searching starts from now.
   void changed();
+  /// As changed(), where only thresholds may have.
+  void reconsider();
 
   double time() const { return time_; }
+  double searched_from() const { return from_; }  ///< since when nothing was inserted or changed, and all is known
   uint64_t evaluations() const { return evaluations_; }
   uint64_t pairs() const { return pair_count_; }
   uint64_t steps() const { return steps_; }

@@ -7,21 +7,43 @@
 
 namespace tunica {
 
-double Inhibition::plastochron() const {
-  constexpr int intervals = 10;
-  if (primordia_.empty()) return 0;
-  const double last = primordia_.back().birth;
-  double first = last;
-  int found = 0;
-  for (size_t i = primordia_.size(); i-- > 0 && found < intervals;)
-    if (primordia_[i].birth < first) first = primordia_[i].birth, ++found;
-  return found ? (last - first) / found : 0;
+namespace {
+
+/// The last intervals between insertions, those at one time not counted.
+std::vector<double> last_intervals(const std::vector<Primordium>& primordia) {
+  constexpr size_t most = 10;
+  std::vector<double> intervals;
+  for (size_t i = primordia.size(); i-- > 1 && intervals.size() < most;)
+    if (primordia[i - 1].birth < primordia[i].birth) intervals.push_back(primordia[i].birth - primordia[i - 1].birth);
+  return intervals;
 }
 
-/// At most half a plastochron; a pause since the last insertion is the least that the present one can be.
+double mean(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double v : values) sum += v;
+  return values.empty() ? 0 : sum / static_cast<double>(values.size());
+}
+
+/// The middle one, if there are pauses among them; those within whorls are far shorter than those between them.
+double usual(std::vector<double> intervals) {
+  if (intervals.size() < 3) return 0;
+  const double all = mean(intervals);
+  std::nth_element(intervals.begin(), intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2),
+                   intervals.end());
+  return std::min(all, std::max(intervals[intervals.size() / 2], all / 10));
+}
+
+}  // namespace
+
+double Inhibition::plastochron() const { return mean(last_intervals(primordia_)); }
+
+/// At most half a plastochron. Where nothing varies but ages, the time since the last insertion is the least that the
+/// present plastochron can be.
 double Inhibition::next_step() const {
   if (!settings_.located) return settings_.longest_step;
-  const double least = plastochron(), since = primordia_.empty() ? 0 : std::max(0.0, from_ - primordia_.back().birth);
+  const bool varies = std::any_of(fields_.begin(), fields_.end(), [](const InhibitionField& f) { return f.varies; });
+  const double least = varies ? usual(last_intervals(primordia_)) : plastochron();
+  const double since = primordia_.empty() || varies ? 0 : std::max(0.0, from_ - primordia_.back().birth);
   double step = least > 0 ? 0.5 * std::max(least, since) : std::max(time_scale_, 0.5 * since);
   if (settings_.longest_step > 0) step = std::min(step, settings_.longest_step);
   return step;
@@ -109,14 +131,20 @@ void Inhibition::changed() {
   recount_ = true;
 }
 
+void Inhibition::reconsider() {
+  from_ = time_;
+  ahead_.reset();
+  evaluated_.reset();
+}
+
 // === Old primordia
 
 /// A bound on |f| on the ring for a primordium of this age and older: the largest over distances that occur, sampled.
 double Inhibition::largest_share(size_t k, double age, double t) {
-  constexpr double later[] = {1, 1.1, 1.25, 1.5, 2, 3, 5, 10, 30};
+  constexpr double latest = 30, ratio = 1.03;  // ages
   constexpr int steps = 4;
   double most = 0;
-  for (const double factor : later) {
+  for (double factor = 1; factor < latest; factor *= ratio) {
     const Vec2 p = track(factor * age);
     const double x = p.x(), y = p.y() - settings_.ring.y();
     const double nearest = std::hypot(x - settings_.ring.x(), y), farthest = std::hypot(x + settings_.ring.x(), y);
@@ -134,7 +162,8 @@ double Inhibition::largest_share(size_t k, double age, double t) {
 void Inhibition::leave_out_old(double t) {
   const size_t most = static_cast<size_t>(settings_.most_active);
   std::vector<double> room;
-  for (size_t k = 0; k < fields_.size(); ++k) room.push_back(settings_.drop * std::fabs(threshold(k, t)));
+  for (size_t k = 0; k < fields_.size(); ++k)  // what changes with time may come back
+    room.push_back(fields_[k].rule_varies ? 0 : settings_.drop * std::fabs(threshold(k, t)));
   // Those left out before have decayed since: count them again, from the youngest, until they no longer matter.
   const auto take = [&](size_t i, std::vector<double>& left) {
     double largest = 0;

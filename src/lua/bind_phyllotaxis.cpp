@@ -92,7 +92,17 @@ void ring_on_apex(InhibitionSettings& s, const Apex& apex, double arc) {
         "what is on the ring (arc {:.6g}) does not move away from the tip: the growth up to there is {:.6g}; give a "
         "place farther down by 'arc', or a rate of growth that is positive on the way there",
         arc, speed);
-  s.track = [path = apex.path(arc, passages * s.ring.x() / speed)](double age) -> Vec2 {
+  // As far back as places are numbers: growth may be far quicker further down.
+  double oldest = passages * s.ring.x() / speed;
+  const auto reachable = [&](double age) {
+    try {
+      return apex.after(arc, age) < 1e12 * s.ring.x();
+    } catch (const Error&) {
+      return false;
+    }
+  };
+  while (!reachable(oldest)) oldest /= 2;
+  s.track = [path = apex.path(arc, oldest)](double age) -> Vec2 {
     try {
       return path.at(age);
     } catch (const Error&) {
@@ -190,12 +200,22 @@ int field(lua_State* L) {
       check_function(L, 4, "a threshold");
       made.threshold = [f = Callback(L, 4)](double t) { return f.number("a threshold", {t}); };
     }
+    made.rule_varies = lua_toboolean(L, 7);
+    made.varies = made.rule_varies || lua_isfunction(L, 4);
     if (k == engine.fields())
       engine.add_field(std::move(made));
     else
       engine.field(k) = std::move(made), engine.changed();
     lua_pushboolean(L, 1);
     return 1;
+  });
+}
+
+/// inhibition_reconsider(engine): thresholds may have changed
+int reconsider(lua_State* L) {
+  return guard(L, [&] {
+    engine_at(L, 1).reconsider();
+    return 0;
   });
 }
 
@@ -226,11 +246,9 @@ size_t field_at(lua_State* L, int at, const Inhibition& engine) {
 }
 
 void register_phyllotaxis(lua_State* L) {
-  const luaL_Reg functions[] = {{"inhibition", inhibition},
-                                {"inhibition_field", field},
-                                {"inhibition_changed", changed},
-                                {"inhibition_share", share},
-                                {nullptr, nullptr}};
+  const luaL_Reg functions[] = {{"inhibition", inhibition},      {"inhibition_field", field},
+                                {"inhibition_changed", changed}, {"inhibition_reconsider", reconsider},
+                                {"inhibition_share", share},     {nullptr, nullptr}};
   add_functions(L, functions);
   register_phyllotaxis_course(L);
 }

@@ -83,6 +83,7 @@ int state(lua_State* L) {
       lua_setfield(L, -2, key);
     };
     number("time", engine.time());
+    number("searched_from", engine.searched_from());
     number("count", static_cast<double>(engine.primordia().size()));
     number("left_out", static_cast<double>(engine.first_active()));
     number("steps", static_cast<double>(engine.steps()));

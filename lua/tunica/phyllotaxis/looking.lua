@@ -17,6 +17,12 @@ local function turn(from, to)
   return angle - 360 * math.ceil((angle - 180) / 360)
 end
 
+--- Arc length from the tip at an age; nil where it is beyond all numbers.
+local function arc_after(my, age)
+  local ok, arc = pcall(my.apex.after, my.apex, my.ring.arc, age)
+  return ok and arc or nil
+end
+
 op { name = "phyllotaxis:primordia",
   returns = "a list of { number, angle, time, age, a, x, y, z, radius, divergence, jugacy, initial }",
   doc = "All primordia, the oldest first: angle and divergence (from the one before, -180 to 180) in degrees, time of " ..
@@ -32,7 +38,7 @@ op { name = "phyllotaxis:primordia",
       p.number, p.time, p.age, p.jugacy = i, p.birth, math.max(0, now - p.birth), my.jugacy
       p.angle, p.radius = math.deg(theta), p.x
       p.x, p.z = p.radius * math.cos(theta), p.radius * math.sin(theta)
-      p.a = my.apex and my.apex:after(my.ring.arc, p.age) or nil
+      p.a = my.apex and arc_after(my, p.age) or nil
       p.divergence, p.birth = before and turn(before, p.angle) or nil, nil
       before = p.angle
     end

@@ -86,11 +86,23 @@ end
 
 -- Running -----------------------------------------------------------------------------------------------------------------------
 
+--- Whether a threshold is not the same at times to come, near and far.
+local function may_rise(below, now, scale)
+  local value = core.call_rule(below, now)
+  for k = -8, 52 do
+    if core.call_rule(below, now + scale * 1.27 ^ k) ~= value then return true end
+  end
+  return false
+end
+
 --- Nothing has come for so long that nothing will: an error for a run that ends with a number of primordia.
 local function check_patience(my, s)
   local scale = math.max(s.plastochron, 100 * s.time_scale)
-  local since = math.max(s.last_birth, 0)
-  if my.most and s.count > 0 and s.time - since > 1e4 * scale then
+  local since, patience = math.max(s.last_birth, 0), 200
+  for _, rule in ipairs(my.rules) do
+    if type(rule.below) == "function" and may_rise(rule.below, s.time, scale) then patience = 1e4 end
+  end
+  if my.most and s.count > 0 and s.time - since > patience * scale then
     local angle, value = core.inhibition_minimum(my.engine)
     fail("no place on the ring has been below the threshold since t = %.6g (now t = %.6g): the lowest field of the first " ..
       "inhibition is %.6g, at %.4g degrees; the run was to end with %d primordia and has %d",
@@ -104,20 +116,32 @@ local function go_on(my, target)
   if #my.conditions > 0 then
     local known = core.inhibition_known(my.engine)
     if not known then return "interrupted" end
-    local high = math.min(known, target)
-    local found = high > before and locate(my, before, high)
-    if found then
-      core.inhibition_show(my.engine, found)
-      if test_conditions(my, found) then prepare(my) end
-      return
+    -- In the whole interval, wherever a pause has cut it: so that pauses do not change the time that is found.
+    local from = core.inhibition_state(my.engine).searched_from
+    local found = known > before and locate(my, from, known)
+    core.inhibition_show(my.engine, before)
+    if found and found <= target then
+      core.inhibition_show(my.engine, math.max(found, before))
+      if test_conditions(my, math.max(found, before)) then
+        parts.refresh(my)
+        prepare(my)
+        return
+      end
+      core.inhibition_show(my.engine, before)
     end
   end
   local status = core.inhibition_advance(my.engine, target)
   if status == "interrupted" then return status end
   local s = core.inhibition_state(my.engine)
-  if status == "inserted" and fire_counts(my, s.time) then prepare(my) end
+  if status == "inserted" and fire_counts(my, s.time) then
+    parts.refresh(my)
+    prepare(my)
+  end
   if status == "clear" then check_patience(my, s) end
-  if #my.conditions > 0 and test_conditions(my, s.time) then prepare(my) end
+  if #my.conditions > 0 and test_conditions(my, s.time) then
+    parts.refresh(my)
+    prepare(my)
+  end
 end
 
 local function advance(model, o)
@@ -131,8 +155,9 @@ local function advance(model, o)
     local fired = course.fire(my, now, 0, nothing)
     fired = fire_counts(my, now) or fired
     if fired or first then
+      if fired then parts.refresh(my) end
       prepare(my)
-      test_conditions(my, now)
+      if test_conditions(my, now) then parts.refresh(my) end
       prepare(my)
     end
     first = false
