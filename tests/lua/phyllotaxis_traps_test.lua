@@ -52,17 +52,17 @@ assert(#model.about.warnings == 1)
 local function at_end(f, drop)
   local m = make { path = function(age) return 1, -age end, drop = drop }
   m:inhibition { field = f, below = 3 }
-  m:advance(20.5)
+  m:advance(6.5)
   return m:field(3)
 end
 local function late(d, age) return (math.exp(-20 * age) + math.exp(-((age - 3) / 0.05) ^ 2)) / d end
-local function relaxing(d, age, t) return math.exp(-tunica.where(tunica.above(t, 20), 0.1, 20) * age) / d end
+local function relaxing(d, age, t) return math.exp(-tunica.where(tunica.above(t, 6), 0.1, 20) * age) / d end
 for _, f in ipairs { late, relaxing } do check.near(at_end(f, nil), at_end(f, 0), 1e-5) end
 
 -- thresholds that come and go are not missed, however long the pause
 model = make {}
-model:inhibition { field = plain, below = function(t) return (t > 300 and t < 310) and 3 or 0 end }
-model:advance(400)
+model:inhibition { field = plain, below = function(t) return (t > 60 and t < 70) and 3 or 0 end }
+model:advance(100)
 assert(model.count > 50, model.count)
 
 -- pauses do not move the time of a condition
