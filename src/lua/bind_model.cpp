@@ -3,6 +3,7 @@
 #include "lua/bind_model.h"
 
 #include "lua/guard.h"
+#include "tissue/carry.h"
 
 namespace tunica::lua {
 
@@ -27,6 +28,26 @@ int tissue_load(lua_State* L) {
     ByteReader in({bytes, size});
     tissue.load(in);
     return 0;
+  });
+}
+
+void push_names(lua_State* L, const std::vector<std::string>& names) {
+  lua_createtable(L, static_cast<int>(names.size()), 0);
+  for (size_t i = 0; i < names.size(); ++i) {
+    lua_pushlstring(L, names[i].data(), names[i].size());
+    lua_rawseti(L, -2, static_cast<int>(i) + 1);
+  }
+}
+
+/// tissue_carry(to, from) -> columns that only `to` declares, columns that only `from` has; see tissue/carry.h
+int tissue_carry(lua_State* L) {
+  return guard(L, [&] {
+    Tissue& to = tissue_at(L, 1);
+    require_changeable(to);
+    const CarriedColumns names = carry_over(to, tissue_at(L, 2));
+    push_names(L, names.added);
+    push_names(L, names.undeclared);
+    return 2;
   });
 }
 
@@ -114,9 +135,13 @@ void register_model(lua_State* L) {
   register_rules(L);
   register_machine(L);
   register_phyllotaxis(L);
-  const luaL_Reg functions[] = {{"tissue_save", tissue_save}, {"with_lock", with_lock},
-                                {"tissue_load", tissue_load}, {"upvalues", upvalues},
-                                {"set_upvalue", set_upvalue}, {nullptr, nullptr}};
+  const luaL_Reg functions[] = {{"tissue_save", tissue_save},
+                                {"with_lock", with_lock},
+                                {"tissue_load", tissue_load},
+                                {"tissue_carry", tissue_carry},
+                                {"upvalues", upvalues},
+                                {"set_upvalue", set_upvalue},
+                                {nullptr, nullptr}};
   add_functions(L, functions);
   open_bytecode_functions(L);
 }
