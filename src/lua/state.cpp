@@ -54,6 +54,18 @@ void limit_debug(lua_State* L) {
   lua_setfield(L, LUA_REGISTRYINDEX, "tunica.debug");
 }
 
+/// A number like 3LL or 2i makes LuaJIT load `ffi` by itself, with which a script could crash the program. So it is
+/// loaded here, kept alive, and out of reach.
+void hide_ffi(lua_State* L) {
+  open(L, luaopen_ffi, LUA_FFILIBNAME);
+  lua_getfield(L, LUA_REGISTRYINDEX, "_LOADED");
+  lua_getfield(L, -1, LUA_FFILIBNAME);
+  lua_setfield(L, LUA_REGISTRYINDEX, "tunica.ffi");
+  lua_pushnil(L);
+  lua_setfield(L, -2, LUA_FFILIBNAME);
+  lua_pop(L, 1);
+}
+
 void open_standard(lua_State* L) {
   open(L, luaopen_base, "");
   open(L, luaopen_package, LUA_LOADLIBNAME);
@@ -65,6 +77,7 @@ void open_standard(lua_State* L) {
   open(L, luaopen_debug, LUA_DBLIBNAME);
   open(L, luaopen_bit, LUA_BITLIBNAME);
   limit_debug(L);
+  hide_ffi(L);
   // luaopen_jit is not called and the engine is put off: compiled loops cannot be interrupted, and x^2 differs in the
   // last bit between compiled and interpreted code.
   luaJIT_setmode(L, 0, LUAJIT_MODE_ENGINE | LUAJIT_MODE_OFF);
@@ -102,6 +115,8 @@ int open_all(lua_State* L) {
   open_loaders(L, library);
   host(L);
   set_curves_folder(L, library);
+  lua_pushlstring(L, library.data(), library.size());
+  lua_setfield(L, LUA_REGISTRYINDEX, "tunica.library");
   open_core(L);
   return 0;
 }

@@ -18,6 +18,7 @@ fails recursion "stack overflow" <<<$'local function f() return 1 + f() end\nf()
 fails missing "no file 'lost.lua'" <<<'require "lost"'
 fails library "no part 'tunica.lost'" <<<'require "tunica.lost"'
 fails foreign "variable 'ffi' is not defined" <<<'ffi.cast()'
+fails literal "attempt to index" <<<'local x = loadstring "return 3LL" return package.loaded.ffi.cast'
 fails loader "'loadlib'" <<<'package.loadlib("libm.so", "sin")'
 fails dump "'dump'" <<<'string.dump(print)'
 fails registry "'getregistry'" <<<'debug.getregistry()'
