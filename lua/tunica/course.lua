@@ -25,6 +25,12 @@ local function due(e)
   return e.kind == "at" and e.fired == 0 and e.time or nil
 end
 
+--- How often an event would have happened until now, if it had been there all the time.
+function course.fired_until(e, now)
+  if e.kind == "every" then return math.floor(now / e.time + 1e-9) end
+  return e.kind == "at" and e.time < now and 1 or 0
+end
+
 --- The time of the next event, or `limit` if that is earlier.
 function course.next_event(my, limit)
   local earliest = limit
@@ -117,6 +123,8 @@ local function functions_of(my)
   for _, r in ipairs(my.rules) do list[#list + 1] = r.fn end
   return list
 end
+
+course.functions_of = functions_of
 
 --- Events, conditions, parameters and the plain values that functions keep, as text.
 function course.save(my)

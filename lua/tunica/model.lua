@@ -237,7 +237,7 @@ local function advance(model, o)
   return "done"
 end
 
-op { name = "model:advance", kind = "named", returns = "'done', 'paused', 'out of time' or 'interrupted'",
+op { name = "model:advance", kind = "named", runs = true, returns = "'done', 'paused', 'out of time' or 'interrupted'",
   doc = "Runs the model to a time, events included. How often it pauses changes no step.",
   args = { { name = "to", type = "number", required = true, position = 1, unit = "time", doc = "until when" },
     { name = "pause", type = "number", infinite = true, unit = "time", doc = "stop then (with fixed steps: after the first that ends then or later)" },
@@ -286,7 +286,7 @@ op { name = "model:restore", changes = true, args = { { name = "snapshot", type 
 
 -- How it is solved ---------------------------------------------------------------------------------------------------------
 
-op { name = "model:solve_with", kind = "named",
+op { name = "model:solve_with", kind = "named", runs = true,
   doc = "Changes how the model is solved from now on; state and time stay. A new method begins with its own dt (fixed steps: the old one, unless given) and tolerance.",
   args = { { name = "method", type = "string", choices = names_of_methods, doc = method_doc },
     { name = "dt", type = "number", above = 0, unit = "time", doc = dt_doc },
@@ -340,7 +340,7 @@ function methods.cost_of(model)
   return copy
 end
 
-op { name = "model:steady", kind = "named", source = "thesis 9.5",
+op { name = "model:steady", kind = "named", runs = true, source = "thesis 9.5",
   returns = "a table: how (elimination, sparse factors, newton), iterations, residual, growth (largest real part found among the eigenvalues of the Jacobian), stable",
   doc = "Goes to a state in which nothing changes by the rates as they are at the present time; time stays, events do not happen. Linear rules are solved directly, others by Newton's method from the present state. If there is none, or it is not determined, nothing changes.",
   args = { { name = "tolerance", type = "number", above = 0, default = 1e-10, doc = "of what is left of the rates, relative to their terms" },

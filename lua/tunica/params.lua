@@ -10,6 +10,9 @@ local params = {}
 --- Set while a rule is traced: function(P, name, value) returns the symbol to stand for a number. Else nil.
 params.trace_hook = nil
 
+--- Set while only the declarations of a script are wanted: function(declared), which may raise an error.
+params.declared_hook = nil
+
 -- What belongs to each table of parameters: { values =, declared =, names =, overridden = }. Weak, so that P itself
 -- holds nothing that a script could reach or confuse.
 local inside = setmetatable({}, { __mode = "k" })
@@ -127,6 +130,7 @@ function params.declare(given)
     my.values[name] = my.declared[name].default
     my.names[#my.names + 1] = name
   end
+  if params.declared_hook then params.declared_hook(my.declared) end
   apply_command_line(my)
   local P = setmetatable({}, meta)
   inside[P] = my
@@ -150,6 +154,9 @@ print(P.D)]],
 
 --- The parameters of the script that runs, or nil.
 function params.current() return current end
+
+--- Another script begins (or goes on with its parameters `P`).
+function params.forget(P) current = P end
 
 --- True if the value is a table of parameters.
 function params.is(value) return inside[value] ~= nil end

@@ -355,4 +355,4 @@ op { name = "phyllotaxis:primordium", changes = true, kind = "named",
 local parts = { inside = inside, methods = methods, prepare = prepare, refresh = refresh, example = example, warn = warn, endless = endless }
 for _, part in ipairs { "running", "looking" } do require("tunica.phyllotaxis." .. part)(parts) end
 
-return { is_phyllotaxis = is_phyllotaxis, inside = inside }
+return { is_phyllotaxis = is_phyllotaxis, inside = inside, prepare = prepare }

@@ -2,8 +2,9 @@
 --- One entry per user-visible operation. From an entry come the checked function itself, help, the editor stubs, the
 -- reference page and the fuzz test.
 --
---   op { name = "tissue:divide",      -- "owner:method", "owner.property" or "tunica.function"
+--   op { name = "tissue:divide",      -- "owner:method", "owner.property", "tunica.function" or "prompt.function"
 --        changes = true,              -- what rules read or are part of: rules cannot call it
+--        runs = true,                 -- changes the state of a model, not its rules
 --        kind = "named",              -- "positional" (default), "named" (one table of options) or "property"
 --        args = { { name = "above", type = "number", above = 0, unit = "area", doc = "..." }, ... },
 --        rest = { type = "any" },     -- named only: other keys are allowed, with values of this type (columns)
@@ -42,13 +43,15 @@ function registry.where() return (core.where():gsub(":%s*$", "")) end
 
 local function finite(v) return v == v and v ~= math.huge and v ~= -math.huge end
 
+local function digits(v) return string.format(v == math.floor(v) and math.abs(v) < 1e16 and "%.0f" or "%.14g", v) end
+
 local function range_words(spec)
   local words = {}
-  if spec.min and spec.max then words[1] = string.format("from %.14g to %.14g", spec.min, spec.max)
-  elseif spec.min then words[1] = string.format("%.14g or more", spec.min)
-  elseif spec.max then words[1] = string.format("%.14g or less", spec.max) end
-  if spec.above then words[#words + 1] = string.format("greater than %.14g", spec.above) end
-  if spec.below then words[#words + 1] = string.format("less than %.14g", spec.below) end
+  if spec.min and spec.max then words[1] = string.format("from %s to %s", digits(spec.min), digits(spec.max))
+  elseif spec.min then words[1] = string.format("%s or more", digits(spec.min))
+  elseif spec.max then words[1] = string.format("%s or less", digits(spec.max)) end
+  if spec.above then words[#words + 1] = string.format("greater than %s", digits(spec.above)) end
+  if spec.below then words[#words + 1] = string.format("less than %s", digits(spec.below)) end
   return #words > 0 and " " .. table.concat(words, " and ") or ""
 end
 
@@ -158,12 +161,12 @@ end
 
 local function check_value(entry, spec, value, self)
   if value == nil then
-    if spec.required then fail("%s: '%s' is missing: %s", entry.name, spec.name, registry.expected(spec)) end
+    if spec.required then fail("%s: '%s' is missing: %s", entry.title, spec.name, registry.expected(spec)) end
     return spec.default
   end
   local ok, hint = registry.matches(value, spec, self)
   if not ok then
-    fail("%s: '%s' must be %s, came %s%s", entry.name, spec.name, registry.expected(spec), core.describe(value), hint)
+    fail("%s: '%s' must be %s, came %s%s", entry.title, spec.name, registry.expected(spec), core.describe(value), hint)
   end
   return value
 end
@@ -172,7 +175,7 @@ local function check_positional(entry, self, ...)
   local given, count = { ... }, #entry.args
   for i = count + 1, select("#", ...) do
     if given[i] ~= nil then
-      fail("%s takes %s, came one more: %s", entry.name, count == 0 and "no arguments" or count == 1 and "1 argument" or
+      fail("%s takes %s, came one more: %s", entry.title, count == 0 and "no arguments" or count == 1 and "1 argument" or
         count .. " arguments", core.describe(given[i]))
     end
   end
@@ -190,7 +193,7 @@ end
 local function check_key(entry, key, value, out)
   for _, spec in ipairs(entry.args) do
     if spec.position == key then
-      if out[spec.name] ~= nil then fail("%s: '%s' is given twice", entry.name, spec.name) end
+      if out[spec.name] ~= nil then fail("%s: '%s' is given twice", entry.title, spec.name) end
       out[spec.name] = value
       return
     end
@@ -202,7 +205,7 @@ local function check_key(entry, key, value, out)
   local names = names_of(entry)
   local hint = type(key) == "string" and core.did_you_mean(key, names) or ""
   if hint == "" then hint = #names > 0 and "; the options are: " .. table.concat(names, ", ") or "; it has none" end
-  fail("%s: there is no option %s%s", entry.name, (core.describe(key):gsub("^the text ", "")), hint)
+  fail("%s: there is no option %s%s", entry.title, (core.describe(key):gsub("^the text ", "")), hint)
 end
 
 local function gather(entry, ...)
@@ -214,7 +217,7 @@ local function gather(entry, ...)
     if value ~= nil then positional[i] = value end
   end
   if next(positional) and not entry.positions then
-    fail("%s takes a table of options: %s { ... }, came %s", entry.name, entry.name, core.describe(given))
+    fail("%s takes a table of options: %s { ... }, came %s", entry.title, entry.title, core.describe(given))
   end
   return positional
 end
@@ -223,7 +226,7 @@ local function check_named(entry, self, ...)
   local given, out, by_key = gather(entry, ...), {}, entry.by_key
   for key, value in next, given do
     if by_key[key] then
-      if out[key] ~= nil then fail("%s: '%s' is given twice", entry.name, key) end
+      if out[key] ~= nil then fail("%s: '%s' is given twice", entry.title, key) end
       out[key] = value
     end
   end
@@ -243,9 +246,12 @@ end
 
 -- Declaring --------------------------------------------------------------------------------------------------------
 
+-- Owners whose functions have no self.
+local modules = { tunica = {}, prompt = {} }
+
 local function make_function(entry)
   local fn, check = entry.fn, entry.kind == "named" and check_named or check_positional
-  if entry.owner == "tunica" then
+  if modules[entry.owner] then
     return function(...) return fn(check(entry, nil, ...)) end
   end
   local is = types[entry.owner].is
@@ -257,6 +263,7 @@ local function make_function(entry)
     if not is(self) then
       fail("%s: write it with a colon, behind a %s; before the colon came %s", entry.name, entry.owner, core.describe(self))
     end
+    if registry.before_change and (entry.changes or entry.runs) then registry.before_change(self) end
     return fn(self, check(entry, self, ...))
   end
 end
@@ -268,8 +275,9 @@ local function check_declaration(entry)
   assert(entry.doc and entry.doc ~= "", entry.name .. " has no doc")
   assert(type(entry.fn) == "function", entry.name .. " has no fn")
   entry.owner, entry.member = owner, member
+  entry.title = owner == "prompt" and member or entry.name  -- as it is written
   entry.kind, entry.args = entry.kind or "positional", entry.args or {}
-  assert((mark == ":") == (owner ~= "tunica" and entry.kind ~= "property"), entry.name .. ": wrong mark for its kind")
+  assert((mark == ":") == (not modules[owner] and entry.kind ~= "property"), entry.name .. ": wrong mark for its kind")
   entry.by_key = {}
   for i, spec in ipairs(entry.args) do
     assert(spec.name and spec.type, entry.name .. ": argument " .. i .. " needs name and type")
@@ -288,7 +296,7 @@ function registry.op(entry)
     return entry.fn
   end
   entry.call = make_function(entry)
-  local methods = entry.owner == "tunica" and registry.module or core.methods[entry.owner] or types[entry.owner].methods
+  local methods = modules[entry.owner] or core.methods[entry.owner] or types[entry.owner].methods
   assert(methods, "nothing is known of the owner of " .. entry.name)
   methods[entry.member] = entry.call
   return entry.call
@@ -297,8 +305,11 @@ end
 --- True while a rule is called with symbols: operations on real cells, tissues and models are then errors.
 registry.tracing = false
 
---- The functions of the module `tunica`.
-registry.module = {}
+--- Set by the prompt: function(self), called before an operation that changes something.
+registry.before_change = nil
+
+--- The functions of the module `tunica`, and those that only the prompt has.
+registry.module, registry.prompt = modules.tunica, modules.prompt
 
 --- Every entry, in the order of declaration.
 function registry.all()

@@ -114,6 +114,18 @@ int absolute_path(lua_State* L) {
   });
 }
 
+/// core.shared_folder(name): where "scripts", "doc" or "stubs" are, installed or among the sources.
+int shared_folder(lua_State* L) {
+  return guard(L, [&] {
+    lua_getfield(L, LUA_REGISTRYINDEX, "tunica.library");
+    const auto beside = std::filesystem::path(text_at(L, lua_gettop(L))).parent_path();
+    std::error_code error;
+    const auto in_sources = beside / "share" / text_at(L, 1);
+    push_text(L, (std::filesystem::is_directory(in_sources, error) ? in_sources : beside / text_at(L, 1)).string());
+    return 1;
+  });
+}
+
 // === JSON, hashes, numbers as text
 
 /// core.encode(value [, indented])
@@ -295,6 +307,7 @@ void register_run(lua_State* L) {
                                 {"remove_all", remove_all},
                                 {"kind_of", kind_of_path},
                                 {"absolute_path", absolute_path},
+                                {"shared_folder", shared_folder},
                                 {"encode", encode},
                                 {"decode", decode},
                                 {"as_list", as_list},

@@ -173,7 +173,8 @@ local function advance(model, o)
   end
 end
 
-op { name = "phyllotaxis:advance", kind = "named", returns = "'done', 'paused', 'out of time' or 'interrupted'",
+op { name = "phyllotaxis:advance", kind = "named", runs = true,
+  returns = "'done', 'paused', 'out of time' or 'interrupted'",
   doc = "Runs the model to a time, or to the number of primordia at which it stops, events included. How often it pauses " ..
     "changes no primordium.",
   args = { { name = "to", type = "number", position = 1, unit = "time",

@@ -1,0 +1,272 @@
+-- SPDX-License-Identifier: MIT
+-- Work on a model at the prompt: load, reload with the state kept, undo, sessions, transcripts.
+local core = require "tunica.core"
+local desk = require "tunica.prompt.desk"
+local history = require "tunica.prompt.history"
+local work = require "tunica.prompt.work"
+local check = require "check"
+
+local folder = os.tmpname()
+os.remove(folder)
+core.mkdir(folder)
+local said
+desk.say = desk.say
+local write = io.write
+io.write = function(...) said = said .. table.concat({ ... }) end -- luacheck: ignore
+
+-- The prompt: lines are evaluated in a table of their own.
+local g = setmetatable({}, { __index = _G })
+for name, fn in pairs(work) do rawset(g, name, fn) end
+desk.globals = g
+
+--- One line typed; what it says. Errors go on.
+local function line(text)
+  said = ""
+  desk.begin_line(text)
+  local chunk = assert(loadstring(text, "=(prompt)"))
+  setfenv(chunk, g)
+  local ok, message = pcall(chunk)
+  desk.end_line(ok)
+  desk.look()
+  if not ok then error(message, 0) end
+  return said
+end
+
+local function says(text, ...)
+  for _, expected in ipairs { ... } do
+    if not said:find(expected, 1, true) then error(string.format("'%s' should say '%s', said: %s", text, expected, said), 2) end
+  end
+end
+
+local function tell(text, ...)
+  line(text)
+  says(text, ...)
+end
+
+local function refused(text, ...)
+  local ok, message = pcall(line, text)
+  assert(not ok, text .. " should fail")
+  for _, expected in ipairs { ... } do
+    assert(message:find(expected, 1, true), string.format("'%s' should say '%s', said: %s", text, expected, message))
+  end
+end
+
+-- Nothing loaded yet.
+refused("reload()", "there is no model")
+refused("set { D = 1 }", "there is no model")
+refused('save "x"', "there is no model")
+tell("undo()", "nothing to undo")
+tell("who()", "nothing yet")
+
+-- Load: by name, by the last part of it, with parameters; nothing changes when it fails.
+tell('load "patterning/ring"', "patterning/ring: Auxin peaks", "50 cells")
+refused('load "rng"', "did you mean 'ring'")
+refused("load(5)", "'name' must be text")
+refused('load { "ring", Q = 1 }', "no parameter 'Q'")
+assert(g.model.time == 0 and #g.tissue == 50)
+tell('load { "ring", cells = 30 }', "30 cells")
+assert(g.P.cells == 30 and #g.tissue == 30)
+tell("undo()", "back to before: load")
+assert(#g.tissue == 50)
+
+-- Loading gives what the program itself gives.
+line "model:advance(5)"
+local through = g.model:hash()
+line 'load "ring"'
+line "model:advance(2)"
+line "reload()"
+says("reload", "has not changed", "t = 2 is kept")
+assert(not said:find "not declared", said)
+line "model:advance(5)"
+check.equal(g.model:hash(), through, "a run over a reload")
+
+-- Parameters: all or none; undo and redo.
+tell("set { D = 2, T = 50 }", "D 1 -> 2, T 70 -> 50")
+refused("set { D = 3, T = -50 }", "parameter 'T': expected at least 0")
+assert(g.P.D == 2 and g.P.T == 50)
+refused("set { d = 3 }", "did you mean 'D'")
+refused("set {}", "which parameter")
+line "P.D = 4"
+tell("who()", "changed: D = 4, T = 50")
+tell("undo()", "P.D = 4")
+assert(g.P.D == 2)
+tell("undo()", "set")
+assert(g.P.D == 1)
+tell("redo()", "again: set")
+assert(g.P.D == 2)
+tell("redo()", "again: P.D = 4")
+assert(g.P.D == 4)
+tell("redo()", "nothing to redo")
+line "undo()"
+line "P.T = 60"
+tell("redo()", "nothing to redo")
+
+-- Undo of runs, operations and values set by hand; state and time.
+line 'load "growth/dividing_sheet"'
+local before, cells = g.model:hash(), #g.tissue
+line "model:advance(0.5)"
+line "c = tissue:find(3)"
+line "for cell in tissue:cells() do cell:remove() break end"
+assert(#g.tissue < cells + 100)
+tell("undo()", "back to before: for cell in")
+tell("undo()", "back to before: model:advance(0.5)", "t = 0")
+check.equal(g.model:hash(), before, "after undo")
+line 'load "ring"'
+line "c = tissue:find(7)"
+line "c.auxin = 5"
+tell("undo()", "c.auxin = 5")
+assert(g.c.auxin < 2)
+
+-- The memory bound: the oldest go first, the last stays.
+local most = history.bytes
+history.bytes = 3 * #g.model:snapshot()
+for i = 1, 10 do line("model:advance(" .. i * 0.1 .. ")") end
+local count, bytes = history.size()
+assert(count >= 1 and count <= 3 and bytes <= history.bytes, count)
+history.bytes = 1
+line "model:advance(2)"
+check.equal((history.size()), 1)
+history.bytes = most
+
+-- Reload of an own script: what is kept, and what is said.
+local path = folder .. "/own.lua"
+local function script(text)
+  core.write_atomic(path, text)
+end
+local head = [[
+-- A row of cells.
+local tunica = require "tunica"
+local P = tunica.params { D = { 1, "diffusion", min = 0 }, k = 2, old = 1 }
+local tissue = tunica.hexagons { 4, 4 }
+tissue:cell { auxin = 1, gone = 2 }
+local model = tunica.model { tissue = tissue, params = P, dt = 0.1, stop = 5 }
+local seen, factor = 0, 10
+]]
+local tail = [[
+model:rate(function(c, d) d.auxin = P.k - P.D * c.auxin end)
+model:every(1, function() seen = seen + factor end)
+model:report { seen = function() return seen end }
+return model
+]]
+local function seen() return g.model.reports[1].fn() end
+script(head .. tail)
+line('load "' .. path .. '"')
+line "model:advance(2)"
+line "c = tissue:find(3)"
+line "c:divide()"
+line "c = tissue:find(5)"
+line "P.D = 3"
+line "P.old = 7"
+check.equal(seen(), 20)
+local auxin, size = g.c.auxin, #g.tissue
+script((head .. tail):gsub("gone = 2", "fresh = 8"):gsub("factor = 0, 10", "factor = 0, 100"):gsub("k = 2, old = 1", "k = 5"))
+tell("reload()", "read again", "t = 2 is kept", "new: cell.fresh", "cell.gone is not declared any more", "P.D stays 3",
+  "not kept: P.old = 7")
+check.equal(#g.tissue, size)
+check.equal(g.c.auxin, auxin)
+check.equal(g.c.fresh, 8)
+check.equal(g.P.k, 5)
+check.equal(g.model.time, 2)
+check.equal(seen(), 20)
+line "model:advance(3)"
+check.equal(seen(), 120)  -- the constant is the file's, the counter its own
+
+-- A file with an error changes nothing; nor one that returns no model, or another tissue.
+local was, hash = g.model, g.model:hash()
+script(head .. "model:rate(function(c, d) d.auxin = \n")
+refused("reload()", "own.lua:")
+script(head .. "error 'on purpose'")
+refused("reload()", "own.lua:8: on purpose")
+script(head)
+refused("reload()", "returned no model")
+script((head .. tail):gsub("hexagons { 4, 4 }", "ring { 16 }"))
+refused("reload()", "geometry")
+script((head .. tail):gsub("P.k %- P.D", "P.nothing - P.D"))
+refused("reload()", "no parameter 'nothing'")
+assert(g.model == was)
+check.equal(g.model:hash(), hash)
+
+-- Watch: read again at the next prompt after it has been saved.
+script(head .. tail)
+tell("watch()", "watching", "read again")  -- it has been saved since
+script((head .. tail):gsub("k = 2", "k = 9"))
+tell("local x = 1", "read again")
+check.equal(g.P.k, 9)
+tell("watch(false)", "no longer")
+
+-- Modules of the script are read again, too.
+core.write_atomic(folder .. "/part.lua", "return { k = 1 }")
+script((head .. tail):gsub("local seen", "model:report { k = function() return require('part').k end }\nlocal seen"))
+line "reload()"
+check.equal(g.model.reports[1].fn(), 1)
+core.write_atomic(folder .. "/part.lua", "return { k = 2 }")
+tell("reload()", "read again")
+check.equal(g.model.reports[1].fn(), 2)
+
+-- Sessions: with the script as it was, also when it is gone.
+line "number = 12.5"
+line "c = tissue:find(5)"
+hash = g.model:hash()
+local file = folder .. "/session"
+tell('save "' .. file .. '"', "is kept in")
+line 'load "ring"'
+line "number = nil"
+os.remove(path)
+tell('restore "' .. file .. '"', "is gone")
+check.equal(g.model:hash(), hash)
+check.equal(g.number, 12.5)
+check.equal(g.c.id, 5)
+refused('restore "' .. folder .. '/part.lua"', "no session")
+refused('restore "' .. folder .. '/none"', "none")
+local whole = core.read_file(file)
+for _, cut in ipairs { 0, 1, 20, #whole - 1 } do
+  core.write_atomic(file, whole:sub(1, cut))
+  refused('restore "' .. file .. '"', "no session")
+end
+check.equal(g.model:hash(), hash)
+
+-- Models of phyllotaxis.
+line 'load "noise"'
+line "model:advance(6)"
+local count_before = g.model.count
+tell("reload()", "t = 6 is kept")
+check.equal(g.model.count, count_before)
+hash = g.model:hash()
+line "model:advance(8)"
+tell("undo()", "t = 6")
+check.equal(g.model:hash(), hash)
+tell('save "' .. file .. '"', "kept")
+tell('restore "' .. file .. '"', "t = 6")
+check.equal(g.model:hash(), hash)
+
+-- Edit: of a shipped model a copy is made, and taken.
+local editor = os.getenv "EDITOR"
+if not os.getenv "VISUAL" and editor == "true" then tell("edit()", "nothing was changed") end
+
+-- What was typed, as a script.
+desk.lines = {}
+line 'load "ring"'
+line "model:advance(1)"
+pcall(line, "model:advnce(2)")
+line "tissue:sum 'auxin'"
+line "x = 1"
+line "undo()"
+local copy = folder .. "/typed.lua"
+line('transcript "' .. copy .. '"')
+refused('transcript "' .. copy .. '"', "exists already")
+local typed = core.read_file(copy)
+for _, text in ipairs { 'ans = show(load "ring")', "-- not run: model:advnce(2)", "x = 1\n" } do
+  assert(typed:find(text, 1, true), typed)
+end
+hash = g.model:hash()
+said = ""
+local chunk = assert(loadstring(typed, "@typed.lua"))
+local print_before = print
+print = function() end -- luacheck: ignore
+chunk()
+print = print_before -- luacheck: ignore
+check.equal(desk.globals.model:hash(), hash)
+desk.globals = g
+
+core.remove_all(folder)
+io.write = write -- luacheck: ignore
