@@ -10,7 +10,7 @@ local check = require "check"
 
 local said
 desk.say = function(format, ...) said = said .. string.format(format, ...) .. "\n" end
-local g = names(setmetatable({}, { __index = _G }))
+local g = names()
 
 local function asked(...)
   said = ""

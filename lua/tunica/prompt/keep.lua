@@ -91,7 +91,7 @@ op { name = "prompt.restore", args = { file },
 
 local head = [[
 -- What was typed at the prompt of tunica. Run it again: tunica %s
-setfenv(1, require("tunica.prompt.names")(setmetatable({}, { __index = _G })))
+setfenv(1, require("tunica.prompt.names")())
 local function show(...)
   if select("#", ...) > 0 and (...) ~= nil then print(...) end
   return ...

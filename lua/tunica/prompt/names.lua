@@ -1,15 +1,20 @@
 -- SPDX-License-Identifier: MIT
---- Gives a table of globals the names that the prompt has: for the prompt itself, and for scripts that transcript wrote.
+--- The names that the prompt has, as the environment of a script: for what transcript wrote, for tests and the reference.
 
---- Every module of tunica.prompt that returns functions by name, in the order in which they are looked for.
+--- Modules whose functions have names at the prompt.
 local parts = { "help", "work" }
 
-return function(globals)
-  local tunica = require "tunica"
-  require("tunica.prompt.desk").globals = globals
-  for _, part in ipairs(parts) do
-    for name, fn in pairs(require("tunica.prompt." .. part)) do rawset(globals, name, fn) end
+--- A table with all of them, over Lua's globals; the prompt's own table where there is a prompt.
+return function()
+  local found, session = pcall(require, "tunica.prompt.session")
+  if found then
+    session.commands()
+    return session.globals
   end
-  rawset(globals, "tunica", tunica)
+  local globals = setmetatable({ tunica = require "tunica" }, { __index = _G })
+  for _, part in ipairs(parts) do
+    for name, fn in pairs(require("tunica.prompt." .. part)) do globals[name] = fn end
+  end
+  require("tunica.prompt.desk").globals = globals
   return globals
 end

@@ -12,7 +12,10 @@ local pages = {}
 -- Text ------------------------------------------------------------------------------------------------------------------
 
 --- Columns of the terminal; the prompt may set it.
-pages.width = function() return tonumber(os.getenv "COLUMNS" or "") or 80 end
+pages.width = function()
+  local screen = package.loaded["tunica.prompt.screen"]
+  return screen and screen.width and screen.width() or tonumber(os.getenv "COLUMNS" or "") or 80
+end
 
 local function length(text) return select(2, text:gsub("[^\128-\191]", "")) end
 
