@@ -9,7 +9,7 @@ local function up_to_date(path, text)
   local there, old = pcall(core.read_file, path)
   if there and old == text then return end
   local line = 1
-  for a, b in (old or ""):gmatch "()([^\n]*)" do
+  for a, b in (old or ""):gmatch "()([^\n]*)\n" do
     if text:sub(a, a + #b - 1) ~= b then break end
     line = line + 1
   end

@@ -10,7 +10,6 @@ local folder = os.tmpname()
 os.remove(folder)
 core.mkdir(folder)
 local said
-desk.say = desk.say
 local write = io.write
 io.write = function(...) said = said .. table.concat({ ... }) end -- luacheck: ignore
 
@@ -79,6 +78,20 @@ says("reload", "has not changed", "t = 2 is kept")
 assert(not said:find "not declared", said)
 line "model:advance(5)"
 check.equal(g.model:hash(), through, "a run over a reload")
+
+-- So do other methods, division, and phyllotaxis.
+for _, case in ipairs { { "brusselator", 0.5, 1 }, { "dividing_sheet", 2, 3 }, { "noise", 3, 8 }, { "gray_scott", 10, 20 } } do
+  line('load "' .. case[1] .. '"')
+  g.model:advance(case[2])
+  g.model:advance(case[3])
+  local expected = g.model:hash()
+  line('load "' .. case[1] .. '"')
+  g.model:advance(case[2])
+  line "reload()"
+  g.model:advance(case[3])
+  check.equal(g.model:hash(), expected, case[1])
+  line 'load "ring"'
+end
 
 -- Parameters: all or none; undo and redo.
 tell("set { D = 2, T = 50 }", "D 1 -> 2, T 70 -> 50")

@@ -5,7 +5,6 @@
 
 require "tunica"  -- every operation is declared
 
-local core = require "tunica.core"
 local registry = require "tunica.registry"
 local params = require "tunica.params"
 local course = require "tunica.course"
@@ -92,6 +91,7 @@ function desk.on_line(fn) at_line[#at_line + 1] = fn end
 function desk.on_look(fn) at_look[#at_look + 1] = fn end
 
 function desk.begin_line(text)
+  script.settle()
   desk.lines[#desk.lines + 1] = { text = text, ok = true }
   for _, fn in ipairs(at_line) do fn(text) end
 end
@@ -108,10 +108,5 @@ function desk.look()
     if not ok then io.stderr:write("tunica: ", tostring(message), "\n") end
   end
 end
-
-desk.run_script = script.run
-
---- True while the machine has been told to stop: nothing long should begin.
-desk.cancelled = core.cancelled
 
 return desk

@@ -8,7 +8,7 @@ local desk = require "tunica.prompt.desk"
 local history = require "tunica.prompt.history"
 local script = require "tunica.prompt.script"
 local op, fail = registry.op, registry.fail
-local say = desk.say
+local function say(...) desk.say(...) end
 
 local mark = "tunica session 1"
 local file = { name = "file", type = "string", required = true, doc = "its path" }

@@ -90,6 +90,21 @@ local function replace(list, by)
   return list
 end
 
+-- What puts the state around a script in order again; by name. Ctrl-C breaks off the code that would have done it, so the next
+-- line does.
+local unsettled = {}
+
+local function settle(name)
+  local put_back = unsettled[name]
+  unsettled[name] = nil
+  if put_back then put_back() end
+end
+
+--- Puts in order what an interrupted script left.
+function script.settle()
+  for _, name in ipairs { "builders", "declarations", "state" } do settle(name) end
+end
+
 --- What running a script changes of the state around it: a function that puts it back.
 local function kept_state()
   if latest then replace(latest.files, core.sources()) end
@@ -130,6 +145,9 @@ local slow = 0.02  -- seconds that a builder takes whose result is worth keeping
 local function with_builders(built, use, work)
   local functions, count = registry.module, 0
   local own = {}
+  unsettled.builders = function()
+    for name, fn in pairs(own) do functions[name] = fn end
+  end
   for _, entry in ipairs(registry.all()) do
     if entry.owner == "tunica" and entry.returns == "a tissue" then
       local name = entry.member
@@ -150,17 +168,16 @@ local function with_builders(built, use, work)
       end
     end
   end
-  local ok, result = xpcall(work, with_chain)
-  for name, fn in pairs(own) do functions[name] = fn end
-  return ok, result
+  return xpcall(work, with_chain)
 end
 
 --- Runs a script: { path =, name =, overrides = name -> value, text = (else the file's), use = what `built` was before }.
 -- Returns its result and the source: { path, name, overrides, files = { { path =, text = }, ... }, built = }.
 function script.run(o)
+  script.settle()
   local text = o.text or core.read_file(o.path)
   local overrides, built = o.overrides or {}, {}
-  local back = kept_state()
+  unsettled.state = kept_state()
   begin_afresh(o.path, overrides)
   local chunk, wrong = load_text(text, "@" .. o.path)
   core.sources()[1] = { path = o.path, text = text }
@@ -169,10 +186,12 @@ function script.run(o)
   local ok, result = false, wrong
   if chunk then ok, result = with_builders(built, o.use, chunk) end
   rawset(_G, "arg", before)
+  settle "builders"
   if not ok then
-    back()
+    settle "state"
     error(result, 0)
   end
+  unsettled.state = nil
   latest = { path = o.path, name = o.name or o.path, shipped = o.shipped, overrides = overrides, files = replace({}, core.sources()), built = built }
   return result, latest
 end
@@ -212,7 +231,10 @@ end
 --- The parameters that a script declares, without building its model: a list of { name =, type =, default =, doc =, unit =,
 -- min =, max = }, by name; empty if it declares none.
 function script.parameters(path)
-  local text, found, back = core.read_file(path), nil, kept_state()
+  script.settle()
+  local text, found = core.read_file(path), nil
+  unsettled.state = kept_state()
+  unsettled.declarations = function() params.declared_hook = nil end
   begin_afresh(path, {})
   params.declared_hook = function(declared)
     found = declared
@@ -220,8 +242,7 @@ function script.parameters(path)
   end
   local chunk = load_text(text, "@" .. path)
   if chunk then pcall(chunk) end
-  params.declared_hook = nil
-  back()
+  script.settle()
   local list = {}
   for name, spec in pairs(found or {}) do
     list[#list + 1] = { name = name, type = spec.type, default = spec.default, doc = spec.doc, unit = spec.unit, min = spec.min, max = spec.max }

@@ -12,7 +12,7 @@ local desk = require "tunica.prompt.desk"
 local history = require "tunica.prompt.history"
 local script = require "tunica.prompt.script"
 local op, fail = registry.op, registry.fail
-local say = desk.say
+local function say(...) desk.say(...) end
 
 require "tunica.prompt.keep"
 
