@@ -11,7 +11,9 @@ local history = {
   count = 200,           -- most states
 }
 
-local cheap = 0.01  -- seconds; a snapshot that takes less is made before every line
+-- Before every line a snapshot is made that takes less than so many seconds, and of a tissue of fewer cells; of others only
+-- before lines, operations and runs that may change something.
+local cheap, small = 0.01, 5000
 
 local points, undone, total = {}, {}, 0
 local armed, cost = nil, 0
@@ -111,6 +113,11 @@ registry.before_change = function(self)
   if armed and belongs(self) then history.keep(armed) end
 end
 
+local function is_cheap()
+  local tissue = desk.inside(desk.model()).tissue
+  return cost < cheap and not (tissue and tissue:count() >= small)
+end
+
 --- True of a line that may set a field (c.auxin = 1, P.D = 2), which no operation tells of.
 local function sets_a_field(text) return text:find "[%.%]]%s*[%a_]*[%w_]*%s*=[^=]" ~= nil end
 
@@ -119,7 +126,7 @@ desk.on_line(function(text)
   armed = short
   if text:match "^%s*undo%s*[%({]" or text:match "^%s*redo%s*[%({]" then
     armed = nil
-  elseif desk.model() and (cost < cheap or sets_a_field(text)) then
+  elseif desk.model() and (is_cheap() or sets_a_field(text)) then
     local point = take(short)
     local last = points[#points]
     if point and not (last and same(last, point)) then

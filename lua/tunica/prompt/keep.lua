@@ -107,6 +107,7 @@ end
 
 --- A line as a statement of a script; nil if it cannot be one.
 local function as_statement(text)
+  if not loadstring(text) then text = text:gsub("%f[%w_]until%s*=%f[^=]", '["until"] =') end  -- as the prompt reads it
   local bare = text:gsub("^%s*=", ""):gsub(";%s*$", "")
   if loadstring("return " .. bare) then
     return text:match ";%s*$" and "ans = " .. bare or "ans = show(" .. bare .. ")"
