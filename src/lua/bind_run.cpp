@@ -295,6 +295,13 @@ int where(lua_State* L) {
   return 1;
 }
 
+/// core.note_errors(function(message) that returns the message, or nil): told where an error is first raised.
+int note_errors_of(lua_State* L) {
+  lua_settop(L, 1);
+  note_errors(L);
+  return 0;
+}
+
 }  // namespace
 
 void register_run(lua_State* L) {
@@ -326,6 +333,7 @@ void register_run(lua_State* L) {
                                 {"blame_command_line", blame_command_line},
                                 {"did_you_mean", suggestion},
                                 {"where", where},
+                                {"note_errors", note_errors_of},
                                 {nullptr, nullptr}};
   for (const luaL_Reg* f = functions; f->name; ++f) {
     lua_pushcfunction(L, f->func);

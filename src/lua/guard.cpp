@@ -11,11 +11,11 @@ namespace {
 /// The address of this variable is the key of the host in the Lua registry: no script can name it.
 const char host_key = 0;
 
+}  // namespace
+
 bool is_users_code(const lua_Debug& frame) {
   return frame.currentline >= 0 && std::strncmp(frame.source, "=tunica/", 8) != 0;
 }
-
-}  // namespace
 
 Host& host(lua_State* L) {
   lua_pushlightuserdata(L, const_cast<char*>(&host_key));
@@ -61,8 +61,26 @@ void ScriptError::push(lua_State* L) const {
   luaL_unref(L, LUA_REGISTRYINDEX, reference_);
 }
 
+namespace {
+constexpr const char* note_key = "tunica.note_errors";
+}
+
+void note_errors(lua_State* L) {
+  host(L).notes_errors = lua_isfunction(L, -1);
+  lua_setfield(L, LUA_REGISTRYINDEX, note_key);
+}
+
 void call(lua_State* L, int arguments, int results) {
-  if (lua_pcall(L, arguments, results, 0) != 0) throw ScriptError(L);
+  if (!host(L).notes_errors) {
+    if (lua_pcall(L, arguments, results, 0) != 0) throw ScriptError(L);
+    return;
+  }
+  const int handler = lua_gettop(L) - arguments;
+  lua_getfield(L, LUA_REGISTRYINDEX, note_key);
+  lua_insert(L, handler);
+  const int status = lua_pcall(L, arguments, results, handler);
+  lua_remove(L, handler);
+  if (status != 0) throw ScriptError(L);
 }
 
 }  // namespace tunica::lua

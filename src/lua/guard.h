@@ -26,6 +26,7 @@ struct Host {
   const void* metatables[5] = {};  ///< of the handles (Kind) and of the tissue (last); see handle.h
   int tissues_made = 0;
   int rules = 0;                ///< that are being called as they are, one inside another (see InRule)
+  bool notes_errors = false;    ///< whether a function is to be told where errors are raised (see note_errors)
   lua_State* main = nullptr;    ///< the thread that lives as long as the state
   lua_State* active = nullptr;  ///< the thread that runs an operation which may call back into Lua (see Entering)
 };
@@ -54,6 +55,9 @@ class InRule {
   Host& host_;
 };
 
+/// Whether a frame ("Sl" filled in) is of a script, not of the library, whose chunks are named "=tunica/...".
+bool is_users_code(const lua_Debug& frame);
+
 /// Pushes "file:line: " of the innermost frame in the user's own code (chunks named "=tunica/..." are the library's).
 void push_where(lua_State* L);
 
@@ -77,6 +81,10 @@ class Placed : public Error {
  public:
   using Error::Error;
 };
+
+/// The function on top of the stack, which is popped, becomes the message handler of `call`: at the prompt it notes the
+/// frames in which an error is raised, since they are gone when the error comes out of the kernel.
+void note_errors(lua_State* L);
 
 /// Calls the function below its `arguments` on the stack; a Lua error comes back as a ScriptError.
 void call(lua_State* L, int arguments, int results);

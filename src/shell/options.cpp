@@ -61,6 +61,13 @@ void add_script_options(CLI::App& app, Options& options) {
       ->type_name("CODE")
       ->expected(1)
       ->take_all();
+  app.add_option("--color", options.colour, "colours: auto, always or never (NO_COLOR has the last word)")
+      ->type_name("WHEN")
+      ->check(CLI::IsMember({"auto", "always", "never"}));
+  app.add_flag_callback(
+      "--private", [&] { options.history = false; }, "prompt: no history is read or kept");
+  app.add_flag_callback(
+      "--no-init", [&] { options.init = false; }, "prompt: without the user's init.lua");
   app.add_flag("-i", options.interactive, "prompt after the script; a model is kept in the variable `model`");
   app.add_flag_callback(
       "--version", [&] { options.command = Options::Command::version; }, "versions, also with --json");

@@ -21,6 +21,8 @@ struct Options {
   std::optional<uint64_t> seed;
   std::optional<bool> frames;
   bool movie = false, json = false, interactive = false, quiet = false;
+  bool history = true, init = true;  ///< of the prompt
+  std::string colour = "auto";       ///< auto, always or never
   std::string quantity;              ///< chart, stability: what errors and patterns are of; "" = the default
   std::vector<std::string> methods;  ///< chart, stability: those to try; none = all
   double error = 1e-3;               ///< chart: the error for which a method is recommended

@@ -70,10 +70,17 @@ void warn_of_unused(const Options& options) {
   if (unused && !options.quiet) say_warning("the script returned no model: options of a run have no effect");
 }
 
+int start_prompt(Session& session, const Options& options, bool banner) {
+  return run_prompt(session,
+                    {.banner = banner && !options.quiet, .keeps_history = options.history, .runs_init = options.init});
+}
+
 int run_model(Session& session, Options& options, const Script& script, const std::string& name) {
   if (options.interactive) {
-    lua_setglobal(session.lua(), "model");
-    return run_prompt(session, false);
+    lua_setfield(session.lua(), LUA_REGISTRYINDEX, "tunica.model");
+    lua_pushstring(session.lua(), name.c_str());
+    lua_setfield(session.lua(), LUA_REGISTRYINDEX, "tunica.model_name");
+    return start_prompt(session, options, false);
   }
   return run_batch(session, options, script, name);
 }
@@ -97,7 +104,7 @@ int run_script(Options& options) {
     if (!session.run(script, true)) return failed(options, session);
   }
   const bool prompt = options.script.empty() && options.code.empty() && isatty(STDIN_FILENO);
-  if (prompt) return run_prompt(session, !options.quiet);
+  if (prompt) return start_prompt(session, options, true);
   if (!options.script.empty() || options.code.empty()) {
     if (options.script.empty()) options.script.assign(1, '-');  // GCC 12 warns of an assignment without reason
     script = read_script(options.script);
@@ -105,7 +112,7 @@ int run_script(Options& options) {
   }
   if (!is_model(session)) {
     if (session.exit_code()) return failed(options, session);
-    if (options.interactive) return run_prompt(session, false);
+    if (options.interactive) return start_prompt(session, options, false);
     warn_of_unused(options);
     return ok;
   }
@@ -181,6 +188,8 @@ int flush_output(int code) {
 int run_program(int argc, char** argv) {
   try {
     auto options = read_options(argc, argv);
+    if (options && options->colour != "auto")
+      choose_colour(options->colour == "always" ? Colour::always : Colour::never);
     return flush_output(options ? run_command(*options) : ok);
   } catch (const UsageError& error) {
     say_error(error.message);

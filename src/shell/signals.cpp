@@ -20,11 +20,18 @@ lua_State* volatile state = nullptr;
 CancelFlag* volatile flag = nullptr;
 volatile std::sig_atomic_t pending = 0;
 volatile std::sig_atomic_t waiting_at_prompt = 0;
+volatile std::sig_atomic_t goes_on = 0;  // a prompt
+volatile std::sig_atomic_t presses = 0;  // since the last calm
+volatile std::sig_atomic_t alarms = 0;
 
 constexpr std::array stopping = {SIGINT, SIGTERM, SIGHUP, SIGUSR1};
 struct sigaction before[stopping.size()], before_alarm;
 
 void stop_lua(lua_State* L, lua_Debug*) { luaL_error(L, "interrupted"); }
+
+void stop_users_code(lua_State* L, lua_Debug* frame) {
+  if (lua_getinfo(L, "Sl", frame) && lua::is_users_code(*frame)) luaL_error(L, "interrupted");
+}
 
 void set_alarm(long microseconds) {
   itimerval timer{};
@@ -33,7 +40,16 @@ void set_alarm(long microseconds) {
 }
 
 void on_alarm(int) {
-  if (pending && state) lua_sethook(state, stop_lua, LUA_MASKCALL | LUA_MASKRET | LUA_MASKCOUNT, 1);
+  if (!pending || !state) return;
+  const bool only_users = goes_on && alarms == 0;
+  alarms = alarms + 1;
+  lua_sethook(state, only_users ? stop_users_code : stop_lua, LUA_MASKCALL | LUA_MASKRET | LUA_MASKCOUNT, 1);
+  if (only_users) set_alarm(900000);
+}
+
+void say(const char* text) {
+  if (write(STDERR_FILENO, text, std::strlen(text)) < 0) {
+  }
 }
 
 void on_signal(int number) {
@@ -41,10 +57,13 @@ void on_signal(int number) {
     pending = number;
     return;
   }
+  presses = presses + 1;
+  if (pending && goes_on && number == SIGINT && presses < 3) {
+    say("\nstill stopping: what runs cannot be broken off at once; Ctrl-C once more ends the program\n");
+    return;
+  }
   if (pending) {
-    constexpr char text[] = "\nstopped at once by a second signal\n";
-    if (write(STDERR_FILENO, text, sizeof text - 1) < 0) {
-    }
+    say("\nstopped at once by a second signal\n");
     _exit(128 + number);
   }
   pending = number;
@@ -84,8 +103,14 @@ void Interrupts::calm(bool forget) {
   set_alarm(0);
   lua_sethook(state, nullptr, 0, 0);
   flag->clear();
-  if (forget) pending = 0;
+  if (forget) {
+    pending = 0;
+    presses = 0;
+  }
+  alarms = 0;
 }
+
+void Interrupts::interactive(bool on) { goes_on = on; }
 
 void Interrupts::at_prompt(bool waiting) { waiting_at_prompt = waiting; }
 

@@ -24,6 +24,11 @@ class Interrupts {
 
   /// At the prompt a signal only ends the line that is being typed: no hook, and a second one does not end the program.
   void at_prompt(bool waiting);
+
+  /// For a session that goes on after an interruption: the hook raises its error in the user's own code only, so that
+  /// the library can put its state in order (after a second in the library too); and it takes three signals to end the
+  /// program at once.
+  void interactive(bool on);
 };
 
 }  // namespace tunica::shell

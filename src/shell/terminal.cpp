@@ -12,18 +12,29 @@ namespace tunica::shell {
 
 namespace {
 
+Colour chosen = Colour::automatic;
+
+bool is_terminal(int descriptor) {
+  const char* terminal = std::getenv("TERM");
+  return isatty(descriptor) && terminal && std::strcmp(terminal, "dumb") != 0;
+}
+
 void say(const char* colour, std::string_view kind, std::string_view text) {
-  const char* no_colour = std::getenv("NO_COLOR");
-  const bool coloured = error_is_terminal() && !(no_colour && *no_colour);
+  const bool coloured = in_colour(STDERR_FILENO);
   std::fflush(stdout);  // so that both streams keep their order on a terminal
   fmt::print(stderr, "tunica: {}{}{}{}\n", coloured ? colour : "", kind, coloured ? "\033[0m" : "", text);
 }
 
 }  // namespace
 
-bool error_is_terminal() {
-  const char* terminal = std::getenv("TERM");
-  return isatty(STDERR_FILENO) && terminal && std::strcmp(terminal, "dumb") != 0;
+bool error_is_terminal() { return is_terminal(STDERR_FILENO); }
+
+void choose_colour(Colour colour) { chosen = colour; }
+
+bool in_colour(int descriptor) {
+  const char* no_colour = std::getenv("NO_COLOR");
+  if ((no_colour && *no_colour) || chosen == Colour::never) return false;
+  return chosen == Colour::always || is_terminal(descriptor);
 }
 
 void say_error(std::string_view text) { say("\033[1;31m", "error: ", text); }
