@@ -9,8 +9,8 @@ local debug = select(2, ...).debug
 
 local most = 400
 
-local keywords = { "and", "break", "do", "else", "elseif", "end", "false", "for", "function", "if", "in", "local", "nil", "not", "or",
-  "repeat", "return", "then", "true", "until", "while" }
+local keywords = { "and", "break", "do", "else", "elseif", "end", "false", "for", "function", "if", "in", "local", "nil", "not",
+  "or", "repeat", "return", "then", "true", "until", "while" }
 
 -- Help of one line ----------------------------------------------------------------------------------------------------------
 
@@ -99,10 +99,12 @@ local function add_operations(list, prefix, owner, mark)
 end
 
 local plain_fields = {
-  model = { time = "the time now", steps = "steps so far", cost = "what it has cost", about = "how it is solved", tissue = "its tissue",
+  model = { time = "the time now", steps = "steps so far", cost = "what it has cost", about = "how it is solved",
+    tissue = "its tissue",
     params = "its parameters", name = "its name", views = "its views", stop = "when a run ends" },
-  phyllotaxis = { time = "the time now", steps = "steps so far", cost = "what it has cost", about = "how it is solved", count = "primordia so far",
-    angles = "their angles", params = "its parameters", name = "its name", views = "its views", apex = "its apex", finished = "whether it has reached its end" },
+  phyllotaxis = { time = "the time now", steps = "steps so far", cost = "what it has cost", about = "how it is solved",
+    count = "primordia so far", angles = "their angles", params = "its parameters", name = "its name", views = "its views",
+    apex = "its apex", finished = "whether it has reached its end" },
 }
 
 local function add_object(list, prefix, value, kind, mark)
@@ -119,7 +121,8 @@ local function add_parameters(list, prefix, P)
   local declared = require("tunica.params").declared(P)
   for name, value in pairs(P) do
     local spec = declared[name]
-    add(list, prefix, name, values.brief(value) .. (spec.unit and " " .. spec.unit or "") .. (spec.doc and "  " .. spec.doc or ""))
+    local about = values.brief(value) .. (spec.unit and " " .. spec.unit or "")
+    add(list, prefix, name, spec.doc and about .. "  " .. spec.doc or about)
   end
 end
 
@@ -289,14 +292,17 @@ local function in_string(text, start, open)
     for _, each in ipairs(files(prefix)) do list[#list + 1] = each end
     return list
   end
-  if chain and with_columns[chain] and tissue_of(nil) then return columns(tissue_of(nil), prefix, { "cell", "side", "wall", "junction" }) end
+  if chain and with_columns[chain] and tissue_of(nil) then
+    return columns(tissue_of(nil), prefix, { "cell", "side", "wall", "junction" })
+  end
   local spec = entry and spec_of(entry, inside)
   if spec then
     local list, tissue = {}, tissue_of(owner)
     for _, choice in ipairs(spec.choices or {}) do add(list, prefix, choice, "") end
     local of_column = spec.type:find("column", 1, true) or spec.doc and spec.doc:find("column", 1, true)
     if of_column and tissue then
-      for _, each in ipairs(columns(tissue, prefix, { spec.of or (spec.name == "sides" and "side") or "cell" })) do list[#list + 1] = each end
+      local kind = spec.of or spec.name == "sides" and "side" or "cell"
+      for _, each in ipairs(columns(tissue, prefix, { kind })) do list[#list + 1] = each end
     end
     if #list > 0 then return list end
   end

@@ -84,11 +84,10 @@ end
 
 --- Where in the line the message points, as first and last character, or nil.
 local function marked(line, message)
-  local name = message:match "field '([%a_][%w_]*)'" or message:match "global '([%a_][%w_]*)'" or message:match "local '([%a_][%w_]*)'"
-    or message:match "method '([%a_][%w_]*)'" or message:match "upvalue '([%a_][%w_]*)'" or message:match "variable '([%a_][%w_]*)'"
-    or message:match "has no '?[%a ]*'?([%a_][%w_]*)'" or message:match "parameter '([%a_][%w_]*)'"
-  if name then
-    local first, last = line:find("%f[%w_]" .. name .. "%f[^%w_]")
+  for _, word in ipairs { "field", "global", "local", "method", "upvalue", "variable", "has no", "parameter" } do
+    local name = message:match(word .. " '([%a_][%w_]*)'")
+    local first, last
+    if name then first, last = line:find("%f[%w_]" .. name .. "%f[^%w_]") end
     if first then return first, last end
   end
   local near = message:match "near '(.-)'"
@@ -110,7 +109,8 @@ local function show_source(out, name, number, message)
   out[#out + 1] = screen.paint("dim", margin) .. text
   local first, last = marked(line, message)
   if first and last <= #text then
-    out[#out + 1] = string.rep(" ", #margin + screen.length(line:sub(1, first - 1))) .. screen.paint("red", string.rep("^", last - first + 1))
+    local before = #margin + screen.length(line:sub(1, first - 1))
+    out[#out + 1] = string.rep(" ", before) .. screen.paint("red", string.rep("^", last - first + 1))
   end
 end
 
@@ -194,8 +194,9 @@ function errors.describe(message)
   end) }
   local about = noted
   noted = nil
-  if about and not (rawequal(about.message, message) or type(about.message) == "string" and text:find(about.message, 1, true)) then
-    about = nil
+  if about and not rawequal(about.message, message) then
+    local within = type(about.message) == "string" and text:find(about.message, 1, true)
+    about = within and about or nil
   end
   local place, number = text:match "^(.-):(%d+): "
   if not place and about and about.frames[1] then

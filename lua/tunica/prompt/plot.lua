@@ -24,7 +24,10 @@ local function range_of(series, axis)
   return low, high
 end
 
-local function utf8_of(code) return string.char(224 + math.floor(code / 4096), 128 + math.floor(code / 64) % 64, 128 + code % 64) end
+--- The three bytes of a character from U+0800 on.
+local function utf8_of(code)
+  return string.char(224 + math.floor(code / 4096), 128 + math.floor(code / 64) % 64, 128 + code % 64)
+end
 
 local function canvas(width, height)
   local across, down = screen.unicode and 2 or 1, screen.unicode and 4 or 1
@@ -76,7 +79,8 @@ return function(series, options)
   local width, height = math.max(10, math.min(100, screen.width()) - margin - 3), 12
   local to = canvas(width, height)
   local function place(x, y)
-    return math.floor((x - left) / (right - left) * (to.across - 1) + 0.5), math.floor((high - y) / (high - low) * (to.down - 1) + 0.5)
+    local across, down = (x - left) / (right - left) * (to.across - 1), (high - y) / (high - low) * (to.down - 1)
+    return math.floor(across + 0.5), math.floor(down + 0.5)
   end
   for _, each in ipairs(series) do draw(to, each, place, options.lines) end
   local out, bar = {}, screen.unicode and "│" or "|"

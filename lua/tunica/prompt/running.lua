@@ -20,8 +20,8 @@ local function command(name, doc, example, fn)
   commands[name] = fn
   if not registry.prompt then return end
   commands[name] = registry.op { name = "prompt." .. name, doc = doc, example = example, fn = fn,
-    args = { { name = "first", type = "any", doc = "a model, or what comes after it" }, { name = "second", type = "any", doc = "see above" },
-      { name = "third", type = "any", doc = "see above" } } }
+    args = { { name = "first", type = "any", doc = "a model, or what comes after it" },
+      { name = "second", type = "any", doc = "see above" }, { name = "third", type = "any", doc = "see above" } } }
 end
 
 local slice = 0.05  -- seconds between looks at the clock
@@ -96,7 +96,8 @@ local function check_options(operation, given, options)
     end
     local wanted = key == "quiet" and "boolean" or "number"
     if type(value) ~= wanted or value ~= value then
-      fail("%s: '%s' must be %s, came %s", operation, key, wanted == "number" and "a number" or "true or false", core.describe(value))
+      local expected = wanted == "number" and "a number" or "true or false"
+      fail("%s: '%s' must be %s, came %s", operation, key, expected, core.describe(value))
     end
   end
   return given
@@ -108,7 +109,9 @@ local function arguments(operation, a, b, options)
   if is_model(a) or b ~= nil then model, given = a, b end
   model = the_model(operation, model)
   if type(given) == "number" then given = { given } end
-  if given ~= nil and type(given) ~= "table" then fail("%s: expected a number or a table of options, came %s", operation, core.describe(given)) end
+  if given ~= nil and type(given) ~= "table" then
+    fail("%s: expected a number or a table of options, came %s", operation, core.describe(given))
+  end
   local o = {}
   for key, value in pairs(given or {}) do o[key == 1 and options[1] or key] = value end
   return model, check_options(operation, o, options)
@@ -125,9 +128,12 @@ local function goal_of(model, o)
   end
   local ends = values.kind(model) == "phyllotaxis" and model.most and endless
   to = to or type(model.stop) == "number" and model.stop or ends
-  if not to then fail("run: until when? run(%s), run { by = 10 }, or stop = T in tunica.model { ... }", values.number(model.time + 10)) end
+  if not to then
+    fail("run: until when? run(%s), run { by = 10 }, or stop = T in tunica.model { ... }", values.time(model.time + 10))
+  end
   if to <= model.time then
-    fail("run: the model is at t = %s already, and was to run to %s; run { by = 10 } goes on", values.time(model.time), values.time(to))
+    fail("run: the model is at t = %s already, and was to run to %s; run { by = 10 } goes on", values.time(model.time),
+      values.time(to))
   end
   return to
 end
@@ -136,11 +142,13 @@ local run_meta = { __metatable = "run" }
 
 --- "now at t = 20: 2,000 steps, 650 cells, 1.3 s"
 function run_meta.__tostring(r)
-  local text = string.format("%s t = %s: %d step%s, %d %s, %.2g s", r.status == "done" and "now at" or "stopped at", values.time(r.time),
-    r.steps, r.steps == 1 and "" or "s", r.size, r.unit, r.seconds)
+  local how = r.status == "done" and "now at" or "stopped at"
+  local text = string.format("%s t = %s: %d step%s, %d %s, %.2g s", how, values.time(r.time), r.steps,
+    r.steps == 1 and "" or "s", r.size, r.unit, r.seconds)
   local parts = {}
   for _, each in ipairs(r.reports) do
-    parts[#parts + 1] = each.name .. " " .. (type(each.value) == "number" and values.short(each.value) or values.brief(each.value))
+    local is_number = type(each.value) == "number"
+    parts[#parts + 1] = each.name .. " " .. (is_number and values.short or values.brief)(each.value)
   end
   return #parts > 0 and text .. "\n  " .. table.concat(parts, ", ") or text
 end
@@ -180,7 +188,8 @@ local function advance(model, goal, o, bar)
   end
 end
 
-command("run", [[Runs the model at hand, or a given one: run(50) to t = 50, run { by = 10 }, run { to = 50, seconds = 5, quiet = true }, run() to its own end. Ctrl-C stops it between two steps; run() goes on.]],
+command("run", "Runs the model at hand, or a given one: run(50) to t = 50, run { by = 10 }, " ..
+    "run { to = 50, seconds = 5, quiet = true }, run() to its own end. Ctrl-C stops it between two steps; run() goes on.",
   [[load "patterning/ring" run(1)]], function(a, b)
   local model, o = arguments("run", a, b, run_options)
   local goal = goal_of(model, o)
@@ -247,7 +256,8 @@ local function view_of(model, given)
   return out
 end
 
-command("show", [[Draws the model at hand in the terminal as its view says: show(), show "column", show { colour = "column", palette = "magma" }, show(tissue, "column").]],
+command("show", "Draws the model at hand in the terminal as its view says: show(), show 'column', " ..
+    "show { colour = 'column', palette = 'magma' }, show(tissue, 'column').",
   [[load "patterning/ring" show()]], function(a, b)
   require "tunica"
   if values.kind(a) == "tissue" then
@@ -272,7 +282,9 @@ local function the_tissue(operation, model)
     return session.lookup "tissue"
   end
   local found = the_model(operation, model)
-  if values.kind(found) ~= "model" then fail("%s: a model of phyllotaxis has no cells; plot { y = model.angles } plots any list", operation) end
+  if values.kind(found) ~= "model" then
+    fail("%s: a model of phyllotaxis has no cells; plot { y = model.angles } plots any list", operation)
+  end
   return found.tissue
 end
 
@@ -301,7 +313,9 @@ end)
 local function plot_lists(given)
   local series = given.series or { { x = given.x, y = given.y, title = given.title } }
   for _, each in ipairs(series) do
-    if type(each) ~= "table" or type(each.y) ~= "table" then fail "plot: give { y = list }, { x =, y = } or { series = { { x =, y = } } }" end
+    if type(each) ~= "table" or type(each.y) ~= "table" then
+      fail "plot: give { y = list }, { x =, y = } or { series = { { x =, y = } } }"
+    end
   end
   return require("tunica.prompt.plot")(series, { title = given.title, lines = given.style == "lines" })
 end
@@ -316,7 +330,8 @@ local function plot_column(tissue, name, kind)
   print(require("tunica.prompt.plot")({ { y = column.values } }, { title = name .. " by cell", lines = true }))
 end
 
-command("plot", [[Plots in characters: plot "peaks" a report over the time of runs at this prompt, plot "auxin" a column, plot { y = list, x = list } any numbers.]],
+command("plot", "Plots in characters: plot 'peaks' a report over the time of runs at this prompt, plot 'auxin' a column, " ..
+    "plot { y = list, x = list } any numbers.",
   [[load "patterning/ring" run(1) plot "auxin"]], function(a, b)
   local model, what = nil, a
   if is_model(a) or b ~= nil then model, what = a, b end
@@ -329,7 +344,8 @@ command("plot", [[Plots in characters: plot "peaks" a report over the time of ru
   local h = running.history(model)
   if what == nil then what = h.names[1] end
   if type(what) ~= "string" then
-    fail("plot: of what? The name of a report or a column, or { y = list }%s", #h.names > 0 and "; reports: " .. table.concat(h.names, ", ") or "")
+    fail("plot: of what? The name of a report or a column, or { y = list }%s",
+      #h.names > 0 and "; reports: " .. table.concat(h.names, ", ") or "")
   end
   local names = {}
   for _, report in ipairs(model.reports or {}) do names[#names + 1] = report.name end

@@ -44,9 +44,11 @@ function screen.wrap(text, width, indent)
   return table.concat(lines, "\n")
 end
 
+local named = { ["\n"] = "\\n", ["\t"] = "\\t", ["\r"] = "\\r" }
+
 --- Text that cannot disturb a terminal: control characters as \n, \27.
 function screen.printable(text)
-  return (text:gsub("[%c\127]", function(c) return ({ ["\n"] = "\\n", ["\t"] = "\\t", ["\r"] = "\\r" })[c] or "\\" .. c:byte() end))
+  return (text:gsub("[%c\127]", function(c) return named[c] or "\\" .. c:byte() end))
 end
 
 return screen

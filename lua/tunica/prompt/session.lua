@@ -154,7 +154,10 @@ function helpers.__values(...) return ... end
 -- nil and the message, or "more" if the text goes on.
 local function compile(text, name)
   -- Not a tail call: the input stays on the stack, and errors can name its line.
-  if load_text("return " .. text, name) then return load_text("return __values(" .. text .. (text:find("--", 1, true) and "\n)" or ")"), name), true end
+  if load_text("return " .. text, name) then
+    local close = text:find("--", 1, true) and "\n)" or ")"
+    return load_text("return __values(" .. text .. close, name), true
+  end
   local plain, message = load_text(text, name)
   if not plain then return nil, is_incomplete(message) and "more" or message end
   return load_text(text .. "\n" .. "__keep_locals()", name) or plain, false
@@ -239,7 +242,8 @@ function session.turn(text, last)
   text = without_prompts(text)
   local operation, word = help_of(text)
   if operation then return turn_help(operation, word) and "done" or "failed" end
-  if words_to_leave[text:match "^%s*(%a+)%s*$" or ""] and rawget(names, text:match "%a+") == nil then return "leave" end
+  local only_word = text:match "^%s*(%a+)%s*$"
+  if only_word and words_to_leave[only_word] and rawget(names, only_word) == nil then return "leave" end
   local name = string.format("[%d]", inputs + 1)
   local bare, hides = text:gsub(";%s*$", "", 1)
   errors().typed[name] = text

@@ -208,7 +208,8 @@ end
 
 local function model_lines(model)
   local my = (loaded(values.kind(model)) or {}).inside[model]
-  local lines = { tostring(model) .. (type(model.stop) == "number" and model.stop < 1e300 and " of " .. values.number(model.stop) or "") }
+  local ends = type(model.stop) == "number" and model.stop < 1e300
+  local lines = { ends and tostring(model) .. " of " .. values.time(model.stop) or tostring(model) }
   lines[#lines + 1] = solution_line(model)
   if #my.rules > 0 then lines[#lines + 1] = "  rules: " .. rules_text(my.rules) end
   local reports = {}
