@@ -65,7 +65,7 @@ function desk.begun(model) return begun[model] end
 function desk.take(model, source)
   local g = desk.globals
   begun[model] = begun[model] or desk.state_of(model)
-  if not model.name then model.name = source.name:match "[^/]*$" end
+  if not model.name then model.name = (source and source.name or "typed"):match "[^/]*$" end
   g.model, g.tissue, g.P = model, desk.inside(model).tissue, model.params
   desk.source = source
 end

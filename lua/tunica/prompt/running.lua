@@ -17,8 +17,6 @@ local fail = registry.fail
 
 --- Declares a command of the prompt: its arguments are looked at by the command itself.
 local function command(name, doc, example, fn)
-  commands[name] = fn
-  if not registry.prompt then return end
   commands[name] = registry.op { name = "prompt." .. name, doc = doc, example = example, fn = fn,
     args = { { name = "first", type = "any", doc = "a model, or what comes after it" },
       { name = "second", type = "any", doc = "see above" }, { name = "third", type = "any", doc = "see above" } } }
@@ -369,6 +367,7 @@ command("plot", "Plots in characters: plot 'peaks' a report over the time of run
   plot_column(tissue, what, kind)
 end)
 
-command("quit", [[Leaves the prompt; so does Ctrl-D on an empty line.]], [[print(quit)]], session.leave)
+commands.quit = registry.op { name = "prompt.quit", fn = function() session.leave() end, example = "print(quit)",
+  doc = "Leaves the prompt; so does Ctrl-D on an empty line." }
 
 return running
