@@ -143,7 +143,9 @@ history.bytes = most
 
 -- Reload of an own script: what is kept, and what is said.
 local path = folder .. "/own.lua"
+local last
 local function script(text)
+  last = text
   core.write_atomic(path, text)
 end
 local head = [[
@@ -183,6 +185,13 @@ check.equal(g.model.time, 2)
 check.equal(seen(), 20)
 line "model:advance(3)"
 check.equal(seen(), 120)  -- the constant is the file's, the counter its own
+
+-- What was carried over once is carried over again.
+line "model:solve_with { method = 'heun' }"
+line "reload()"
+tell("reload()", "P.D stays 3", "the method stays heun")
+check.equal(seen(), 120)
+line "model:solve_with { method = 'euler' }"
 
 -- A file with an error changes nothing; nor one that returns no model, or another tissue.
 local was, hash = g.model, g.model:hash()
@@ -229,6 +238,10 @@ tell('restore "' .. file .. '"', "is gone")
 check.equal(g.model:hash(), hash)
 check.equal(g.number, 12.5)
 check.equal(g.c.id, 5)
+script(last)
+line "reload()"
+check.equal(g.P.D, 3)
+check.equal(g.model:hash(), hash)
 refused('restore "' .. folder .. '/part.lua"', "no session")
 refused('restore "' .. folder .. '/none"', "none")
 local whole = core.read_file(file)

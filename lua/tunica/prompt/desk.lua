@@ -22,7 +22,9 @@ local desk = {
 local given = {}
 for name in pairs(_G) do given[name] = true end
 
-function desk.is_given(name, value) return given[name] and rawequal(rawget(_G, name), value) or registry.prompt[name] == value end
+function desk.is_given(name, value)
+  return given[name] and rawequal(rawget(_G, name), value) or registry.prompt[name] == value or value == package.loaded.tunica
+end
 
 function desk.say(format, ...) io.write(select("#", ...) > 0 and string.format(format, ...) or format, "\n") end
 
@@ -50,21 +52,27 @@ function desk.need_model(what)
   return model
 end
 
---- What the script of a model holds at this moment: for telling later what has changed since.
-function desk.state_of(model)
-  local my = desk.inside(model)
-  local solution = desk.has_tissue(model) and model:solution() or nil
-  return { script = plain.decode(course.save(my), my.tissue), solution = solution }
-end
-
--- As each model was when it had been loaded.
+-- What a model's script held when it had just been run: what differs from it later is state.
 local begun = setmetatable({}, { __mode = "k" })
 function desk.begun(model) return begun[model] end
 
---- Makes it the model at hand. `source`: what script.run gave.
+local function held_by(model)
+  local my = desk.inside(model)
+  return { script = plain.decode(course.save(my), my.tissue), solution = desk.has_tissue(model) and model:solution() or nil }
+end
+
+--- Runs a script (see script.run), which must return a model. Returns that and its source.
+function desk.run(o)
+  local model, source = script.run(o)
+  if not desk.inside(model) then registry.fail("'%s' has run, and returned no model (its last line should be: return model)", o.path) end
+  begun[model] = held_by(model)
+  return model, source
+end
+
+--- Makes it the model at hand. `source`: what desk.run gave, or nil.
 function desk.take(model, source)
   local g = desk.globals
-  begun[model] = begun[model] or desk.state_of(model)
+  begun[model] = begun[model] or held_by(model)
   if not model.name then model.name = (source and source.name or "typed"):match "[^/]*$" end
   g.model, g.tissue, g.P = model, desk.inside(model).tissue, model.params
   desk.source = source

@@ -35,8 +35,7 @@ op { name = "prompt.save", args = { file },
     if not source then fail "save: this model was typed here; transcript \"file\" keeps what was typed, as a script" end
     local about = { path = core.absolute_path(source.path), name = source.name, shipped = source.shipped, overrides = source.overrides, seed = core.seed(),
       solution = desk.has_tissue(model) and model:solution() or nil, files = script.files(source), time = model.time }
-    core.write_atomic(path, core.pack { mark = mark, about = core.encode(about), model = model:snapshot(), variables = variables(),
-      begun = plain.encode(desk.begun(model)) })
+    core.write_atomic(path, core.pack { mark = mark, about = core.encode(about), model = model:snapshot(), variables = variables() })
     say("%s at t = %.6g is kept in %s", source.name, model.time, path)
   end }
 
@@ -71,8 +70,7 @@ op { name = "prompt.restore", args = { file },
     history.keep("restore", true)
     local text = about.files[1].text
     local there = pcall(core.read_file, about.path)
-    local model, source = script.run { path = about.path, name = about.name, shipped = about.shipped, overrides = about.overrides, text = text }
-    if not desk.inside(model) then fail("restore: the script in '%s' returned no model", path) end
+    local model, source = desk.run { path = about.path, name = about.name, shipped = about.shipped, overrides = about.overrides, text = text }
     if about.solution and core.encode(model:solution()) ~= core.encode(about.solution) then model:solve_with(about.solution) end
     model:restore(with_seed(parts.model, about.seed))
     desk.take(model, source)

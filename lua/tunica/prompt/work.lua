@@ -20,16 +20,6 @@ local loaded = 'load "patterning/ring"\n'
 
 -- Load and reload -------------------------------------------------------------------------------------------------------
 
-local function is_a_model(value) return desk.inside(value) ~= nil end
-
-local function run(o)
-  local model, source = script.run(o)
-  if not is_a_model(model) then
-    fail("'%s' has run, and returned no model (its last line should be: return model)", o.path)
-  end
-  return model, source
-end
-
 local function describe(model, source)
   say("%s: %s", source.name, script.header(source.files[1].text).about)
   local g = {}
@@ -49,7 +39,7 @@ op { name = "prompt.load", kind = "named", rest = { type = "number|string|boolea
       if key ~= "name" then overrides[key] = value end
     end
     history.keep("load " .. name, true)
-    local model, source = run { path = path, name = name, shipped = shipped, overrides = overrides }
+    local model, source = desk.run { path = path, name = name, shipped = shipped, overrides = overrides }
     desk.take(model, source)
     describe(model, source)
   end }
@@ -60,7 +50,7 @@ local function reload()
   if not source then fail "reload: this model was typed here; load one from a file (transcript \"file\" writes what was typed)" end
   local changed = script.changed(source)
   history.keep("reload", true)
-  local fresh, now = run { path = source.path, name = source.name, shipped = source.shipped, overrides = source.overrides, use = source.built }
+  local fresh, now = desk.run { path = source.path, name = source.name, shipped = source.shipped, overrides = source.overrides, use = source.built }
   local notes = carry.over(model, fresh, changed ~= nil)
   local old_tissue, g = desk.inside(model).tissue, desk.globals
   local handles = {}
