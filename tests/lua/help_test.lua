@@ -108,7 +108,8 @@ end
 -- Wrong arguments: an error with a text, never a crash; the model at hand stays.
 local model = desk.model()
 for _, entry in ipairs(pages.of_owner "prompt") do
-  for _, value in ipairs { -1, 0 / 0, "", ("x"):rep(100000), {}, { {} }, { 0 / 0 }, function() end, g.model, g.tissue, "\0", "/", true } do
+  for _, value in ipairs { -1, 0 / 0, "", ("x"):rep(100000), {}, { {} }, { 0 / 0 }, function() end, g.model, g.tissue, "\0",
+    "/", true } do
     if entry.member ~= "edit" and not (entry.member == "undo" or entry.member == "redo") then
       local ok, message = pcall(entry.call, value)
       assert(ok or type(message) == "string" and #message < 2000, entry.name)

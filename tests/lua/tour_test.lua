@@ -10,7 +10,8 @@ core.mkdir(folder)
 
 --- Files are named by the tour as if one were in the folder.
 local function in_folder(line)
-  return (line:gsub('"(mine%.lua)"', '"' .. folder .. '/%1"'):gsub('"(mine%.png)"', '"' .. folder .. '/%1"'):gsub('"(monday)"', '"' .. folder .. '/%1"')
+  return (line:gsub('"(mine%.lua)"', '"' .. folder .. '/%1"'):gsub('"(mine%.png)"', '"' .. folder ..
+    '/%1"'):gsub('"(monday)"', '"' .. folder .. '/%1"')
     :gsub('"(typed%.lua)"', '"' .. folder .. '/%1"'))
 end
 
@@ -35,7 +36,8 @@ for head, block in core.read_file(core.shared_folder "doc" .. "/tour.md"):gmatch
   if head:match "file=" then
     core.write_atomic(path, block)
   elseif head:match "insert=" then
-    core.write_atomic(path, (core.read_file(path):gsub("\nreturn model", function() return "\n" .. block .. "\nreturn model" end)))
+    core.write_atomic(path, (core.read_file(path):gsub("\nreturn model", function() return "\n" .. block ..
+      "\nreturn model" end)))
   else
     for line in block:gmatch "[^\n]+" do run(line) end
   end

@@ -41,9 +41,11 @@ local function carry_parameters(old, new, begun, notes)
       if not declared then
         notes[#notes + 1] = string.format("not kept: P.%s = %s; there is no such parameter now", name, words(value))
       elseif not kept then
-        notes[#notes + 1] = string.format("not kept: P.%s = %s; %s", name, words(value), (tostring(why):gsub("^.-parameter '[^']*': ", "")))
+        notes[#notes + 1] = string.format("not kept: P.%s = %s; %s", name, words(value),
+          (tostring(why):gsub("^.-parameter '[^']*': ", "")))
       else
-        notes[#notes + 1] = string.format("P.%s stays %s (changed since loading; the file says %s)", name, words(value), words(declared.default))
+        notes[#notes + 1] = string.format("P.%s stays %s (changed since loading; the file says %s)", name, words(value),
+          words(declared.default))
       end
     end
   end
@@ -77,7 +79,8 @@ local function carry_values(now, begun, new, notes)
       if not same(value, begun.script.upvalues.values[key]) then
         local target = new_keys[name] and #new_keys[name] == #keys and new_keys[name][i]
         if not target then
-          notes[#notes + 1] = string.format("not kept: the value of '%s', which no function of the script uses in the same way now", name)
+          notes[#notes + 1] = string.format("not kept: the value of '%s', which no function of the script uses in the same way " ..
+            "now", name)
         elseif value == nil then
           saved.missing[target] = true
         else

@@ -64,7 +64,8 @@ end
 --- Runs a script (see script.run), which must return a model. Returns that and its source.
 function desk.run(o)
   local model, source = script.run(o)
-  if not desk.inside(model) then registry.fail("'%s' has run, and returned no model (its last line should be: return model)", o.path) end
+  if not desk.inside(model) then registry.fail("'%s' has run, and returned no model (its last line should be: return model)",
+    o.path) end
   begun[model] = held_by(model)
   return model, source
 end

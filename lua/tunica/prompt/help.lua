@@ -59,7 +59,8 @@ end
 local function method_of_solution(name)
   for _, way in ipairs(core.methods_of_solution()) do
     if way.name == name then
-      return string.format("%s, a method of integration: %s; order %d%s. model:solve_with { method = \"%s\" } takes it.", name, way.title,
+      return string.format("%s, a method of integration: %s; order %d%s. model:solve_with { method = \"%s\" } takes it.",
+        name, way.title,
         way.order, way.adaptive and ", adaptive" or ", fixed steps (dt)", name)
     end
   end
@@ -88,7 +89,8 @@ local function called(name)
   if #same_member == 1 then
     found[#found + 1] = pages.operation(same_member[1])
   elseif #same_member > 1 then
-    found[#found + 1] = list_of(string.format("'%s' is an operation of several things; help \"owner:%s\" says more:", bare, bare), same_member)
+    found[#found + 1] = list_of(string.format("'%s' is an operation of several things; help \"owner:%s\" says more:", bare,
+      bare), same_member)
   end
   for _, text in ipairs { option(bare) or false, method_of_solution(bare) or false } do
     if text then found[#found + 1] = text end
@@ -131,7 +133,8 @@ local function about_text(name)
   if #found == 0 then
     local short = name:sub(1, 100):gsub("%c", " ")
     if not desk.model() and short:match "^P%.%a" then fail("help: parameters are those of a model; load one first") end
-    fail("help: nothing is called '%s'%s; search \"%s\" looks into all texts", short, core.did_you_mean(short, known_names()), short)
+    fail("help: nothing is called '%s'%s; search \"%s\" looks into all texts", short, core.did_you_mean(short, known_names()),
+      short)
   end
   return table.concat(found, "\n\n")
 end
@@ -139,7 +142,8 @@ end
 local function about_model(model)
   local source = desk.source
   if model == desk.model() and source then return pages.model(source.name, source.path, model.params) end
-  return tostring(model) .. (model.params and "\n\nparameters:\n" .. pages.parameters(pages.declared(model.params), params.values(model.params)) or "")
+  return tostring(model) .. (model.params and "\n\nparameters:\n" .. pages.parameters(pages.declared(model.params),
+    params.values(model.params)) or "")
 end
 
 local function about_value(value)
@@ -157,8 +161,10 @@ local function about_value(value)
   return core.describe(value)
 end
 
-op { name = "prompt.help", args = { { name = "topic", type = "any", doc = "a name in quotes (an operation, an option, a model, a parameter), or a thing itself; ?name is the same" } },
-  doc = "Says what something is: its arguments with units, limits and defaults, where it comes from, and an example that runs. Without a topic: where to begin.",
+op { name = "prompt.help", args = { { name = "topic", type = "any", doc = "a name in quotes (an operation, an option, a model, " ..
+  "a parameter), or a thing itself; ?name is the same" } },
+  doc = "Says what something is: its arguments with units, limits and defaults, where it comes from, and an example that runs. " ..
+    "Without a topic: where to begin.",
   example = 'help "tissue:divide"',
   fn = function(topic)
     local text = topic == nil and pages.tour() or type(topic) == "string" and about_text(topic) or about_value(topic)
@@ -189,7 +195,8 @@ local function text_of_model(model)
   return table.concat(out, " "):lower()
 end
 
-op { name = "prompt.search", args = { { name = "words", type = "string", required = true, doc = "one or several; ??word is the same" } },
+op { name = "prompt.search", args = { { name = "words", type = "string", required = true,
+  doc = "one or several; ??word is the same" } },
   doc = "Lists all operations and models in whose texts every one of the words occurs.",
   example = 'search "primordia"',
   fn = function(given)

@@ -28,14 +28,17 @@ local function variables()
 end
 
 op { name = "prompt.save", args = { file },
-  doc = "Keeps the session in a file: the model with its script, parameters and state, and the plain variables (numbers, text, cells, tables of them).",
+  doc = "Keeps the session in a file: the model with its script, parameters and state, and the plain variables (numbers, text, " ..
+    "cells, tables of them).",
   example = 'load "patterning/ring" local name = os.tmpname() save(name) os.remove(name)',
   fn = function(path)
     local model, source = desk.need_model "save", desk.source
     if not source then fail "save: this model was typed here; transcript \"file\" keeps what was typed, as a script" end
-    local about = { path = core.absolute_path(source.path), name = source.name, shipped = source.shipped, overrides = source.overrides, seed = core.seed(),
+    local about = { path = core.absolute_path(source.path), name = source.name, shipped = source.shipped,
+      overrides = source.overrides, seed = core.seed(),
       solution = desk.has_tissue(model) and model:solution() or nil, files = script.files(source), time = model.time }
-    core.write_atomic(path, core.pack { mark = mark, about = core.encode(about), model = model:snapshot(), variables = variables() })
+    core.write_atomic(path, core.pack { mark = mark, about = core.encode(about), model = model:snapshot(),
+      variables = variables() })
     say("%s at t = %.6g is kept in %s", source.name, model.time, path)
   end }
 
@@ -70,7 +73,8 @@ op { name = "prompt.restore", args = { file },
     history.keep("restore", true)
     local text = about.files[1].text
     local there = pcall(core.read_file, about.path)
-    local model, source = desk.run { path = about.path, name = about.name, shipped = about.shipped, overrides = about.overrides, text = text }
+    local model, source = desk.run { path = about.path, name = about.name, shipped = about.shipped,
+      overrides = about.overrides, text = text }
     if about.solution and core.encode(model:solution()) ~= core.encode(about.solution) then model:solve_with(about.solution) end
     model:restore(with_seed(parts.model, about.seed))
     desk.take(model, source)
@@ -99,7 +103,8 @@ end
 --- Lines that only tell something, and are nothing for a script.
 local function only_tells(text)
   local word = text:match "^%s*([%a_]+)%s*[%({\"'%[]"
-  return text:match "^%s*%?" or text:match "^%s*$" or word == "help" or word == "search" or word == "transcript" or word == "who" or word == "edit"
+  return text:match "^%s*%?" or text:match "^%s*$" or word == "help" or word == "search" or word == "transcript" or
+    word == "who" or word == "edit"
     or word == "watch"
 end
 
@@ -129,7 +134,8 @@ local function as_script(path)
     if not only_tells(line.text) then
       local statement = line.ok and as_statement(line.text)
       if statement then
-        out[#out + 1] = (with_undo and string.format("typed %q ", line.text:gsub("%s+", " "):sub(1, 60)) or "") .. statement .. "\n"
+        local told = with_undo and string.format("typed %q ", line.text:gsub("%s+", " "):sub(1, 60)) or ""
+        out[#out + 1] = told .. statement .. "\n"
       else
         left_out = left_out + 1
         out[#out + 1] = "-- not run: " .. line.text:gsub("\n", "\n--          ") .. "\n"
@@ -146,5 +152,5 @@ op { name = "prompt.transcript", args = { file },
     if core.kind_of(path) then fail("transcript: '%s' exists already; choose another name", path) end
     local text, left_out = as_script(path)
     core.write_atomic(path, text)
-    say("%s written%s", path, left_out > 0 and string.format("; %d line%s that failed as comments", left_out, left_out == 1 and "" or "s") or "")
+    say("%s written%s", path, left_out > 0 and string.format("; lines that failed, as comments: %d", left_out) or "")
   end }

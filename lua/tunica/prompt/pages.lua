@@ -97,7 +97,8 @@ function pages.operation(entry)
     local expected = pages.expected(spec)
     rows[#rows + 1] = { spec.name, spec.doc .. (expected ~= "" and " (" .. expected .. ")" or "") }
   end
-  if entry.rest then rows[#rows + 1] = { "name = value", (entry.rest.doc or "any other names") .. " (" .. pages.expected(entry.rest) .. ")" } end
+  if entry.rest then rows[#rows + 1] = { "name = value", (entry.rest.doc or "any other names") .. " (" ..
+    pages.expected(entry.rest) .. ")" } end
   if #rows > 0 then out[#out + 1] = "\n" .. pages.rows(rows, "  ") end
   if entry.source then out[#out + 1] = "\nsource: " .. entry.source end
   if entry.example then out[#out + 1] = "\nexample:\n    " .. entry.example:gsub("%s+$", ""):gsub("\n", "\n    ") end
@@ -153,11 +154,20 @@ end
 
 --- Owners of operations in the order in which they are shown, with what they are.
 pages.owners = {
-  { "prompt", "names that only the prompt has" }, { "tunica", "functions of the module (local tunica = require \"tunica\")" },
-  { "tissue", "a tissue" }, { "cell", "a cell" }, { "wall", "a wall between two cells, or at the border" },
-  { "side", "a wall as one of its cells sees it" }, { "junction", "a point where walls meet" }, { "model", "a model of a tissue" },
-  { "phyllotaxis", "a model of phyllotaxis by inhibition" }, { "contour", "a curve in the plane" }, { "curve", "a function drawn as a curve" },
-  { "apex", "a surface of revolution that grows" }, { "surface", "a surface given by functions" }, { "bulges", "a surface with primordia" },
+  { "prompt", "names that only the prompt has" },
+  { "tunica", "functions of the module (local tunica = require \"tunica\")" },
+  { "tissue", "a tissue" },
+  { "cell", "a cell" },
+  { "wall", "a wall between two cells, or at the border" },
+  { "side", "a wall as one of its cells sees it" },
+  { "junction", "a point where walls meet" },
+  { "model", "a model of a tissue" },
+  { "phyllotaxis", "a model of phyllotaxis by inhibition" },
+  { "contour", "a curve in the plane" },
+  { "curve", "a function drawn as a curve" },
+  { "apex", "a surface of revolution that grows" },
+  { "surface", "a surface given by functions" },
+  { "bulges", "a surface with primordia" },
 }
 
 function pages.of_owner(owner)
@@ -191,7 +201,8 @@ function pages.tour()
     { 'search "word"', "or ??word: everything in which the word occurs" },
   }
   return "Some things to type:\n" .. pages.rows(rows, "  ") .. (model and "\n\nThe model at hand: " .. tostring(model) or "") ..
-    "\n\n" .. pages.wrap("More: help \"prompt\" (names that only the prompt has), help \"operations\" (all others), help \"methods\" (of integration).", "", "")
+    "\n\n" .. pages.wrap("More: help \"prompt\" (names that only the prompt has), help \"operations\" (all others), help " ..
+      "\"methods\" (of integration).", "", "")
 end
 
 function pages.methods()

@@ -29,7 +29,8 @@ local function operation(entry)
       out[#out + 1] = string.format("| `%s` | %s | %s |", spec.name, cell(spec.doc), cell(pages.expected(spec)))
     end
     if entry.rest then
-      out[#out + 1] = string.format("| name = value | %s | %s |", cell(entry.rest.doc or "any other names"), cell(pages.expected(entry.rest)))
+      out[#out + 1] = string.format("| name = value | %s | %s |", cell(entry.rest.doc or "any other names"),
+        cell(pages.expected(entry.rest)))
     end
   end
   if entry.source then out[#out + 1] = "\nSource: " .. entry.source .. "." end
@@ -57,7 +58,8 @@ function reference.text()
   end
   out[#out + 1] = "## Methods of integration\n\n| method | |\n|---|---|"
   for _, way in ipairs(core.methods_of_solution()) do
-    out[#out + 1] = string.format("| `%s` | %s; order %d%s |", way.name, way.title, way.order, way.adaptive and ", adaptive" or "")
+    out[#out + 1] = string.format("| `%s` | %s; order %d%s |", way.name, way.title, way.order, way.adaptive and ", adaptive" or
+      "")
   end
   out[#out + 1] = "\n## Shipped models\n"
   for _, m in ipairs(script.shipped()) do out[#out + 1] = model(m) .. "\n" end

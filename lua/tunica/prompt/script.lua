@@ -59,7 +59,8 @@ function script.find(given)
   end
   if #found == 1 then return found[1].path, found[1].name, true end
   if #found > 1 then fail("there are %d models called '%s': %s and %s", #found, given, found[1].name, found[2].name) end
-  fail("no file and no shipped model is called '%s'%s; help \"models\" lists them", given:sub(1, 200), core.did_you_mean(given:sub(1, 200), names))
+  fail("no file and no shipped model is called '%s'%s; help \"models\" lists them", given:sub(1, 200),
+    core.did_you_mean(given:sub(1, 200), names))
 end
 
 -- Running ---------------------------------------------------------------------------------------------------------------
@@ -192,7 +193,8 @@ function script.run(o)
     error(result, 0)
   end
   unsettled.state = nil
-  latest = { path = o.path, name = o.name or o.path, shipped = o.shipped, overrides = overrides, files = replace({}, core.sources()), built = built }
+  latest = { path = o.path, name = o.name or o.path, shipped = o.shipped, overrides = overrides,
+    files = replace({}, core.sources()), built = built }
   return result, latest
 end
 
@@ -245,7 +247,8 @@ function script.parameters(path)
   script.settle()
   local list = {}
   for name, spec in pairs(found or {}) do
-    list[#list + 1] = { name = name, type = spec.type, default = spec.default, doc = spec.doc, unit = spec.unit, min = spec.min, max = spec.max }
+    list[#list + 1] = { name = name, type = spec.type, default = spec.default, doc = spec.doc, unit = spec.unit,
+      min = spec.min, max = spec.max }
   end
   return list
 end

@@ -9,14 +9,19 @@ local stubs = {}
 
 -- What models have besides operations.
 local fields = {
-  model = { { "time", "number" }, { "steps", "integer" }, { "tissue", "tunica.tissue" }, { "params", "tunica.parameters" }, { "name", "string" },
+  model = { { "time", "number" }, { "steps", "integer" }, { "tissue", "tunica.tissue" }, { "params", "tunica.parameters" },
+    { "name", "string" },
     { "about", "table" }, { "cost", "table" }, { "stop", "number" } },
-  phyllotaxis = { { "time", "number" }, { "steps", "integer" }, { "count", "integer" }, { "angles", "number[]" }, { "finished", "boolean" },
-    { "params", "tunica.parameters" }, { "name", "string" }, { "apex", "tunica.apex" }, { "about", "table" }, { "cost", "table" } },
-  cell = { { "[string]", "number" } }, wall = { { "[string]", "number" } }, side = { { "[string]", "number" } }, junction = { { "[string]", "number" } },
+  phyllotaxis = { { "time", "number" }, { "steps", "integer" }, { "count", "integer" }, { "angles", "number[]" },
+    { "finished", "boolean" },
+    { "params", "tunica.parameters" }, { "name", "string" }, { "apex", "tunica.apex" }, { "about", "table" }, { "cost",
+      "table" } },
+  cell = { { "[string]", "number" } }, wall = { { "[string]", "number" } }, side = { { "[string]", "number" } },
+    junction = { { "[string]", "number" } },
 }
 
-local plain = { any = "any", boolean = "boolean", ["function"] = "function", table = "table", number = "number", integer = "integer",
+local plain = { any = "any", boolean = "boolean", ["function"] = "function", table = "table", number = "number",
+  integer = "integer",
   string = "string", vector = "number[]", column = "string" }
 
 local objects = {}
@@ -38,10 +43,14 @@ local function type_of(spec)
   return table.concat(out, "|")
 end
 
-local results = { ["a number"] = "number", ["a whole number"] = "integer", text = "string", ["true or false"] = "boolean", ["a table"] = "table",
-  ["a surface"] = "tunica.surface", ["the tissue"] = "tunica.tissue", ["a model of phyllotaxis"] = "tunica.phyllotaxis", ["x, y, z"] = "number x, number y, number z",
-  ["the parameters; P.name reads one"] = "tunica.parameters", ["the new cell"] = "tunica.cell", ["the wall between them"] = "tunica.wall",
-  ["the element, or nil if it is gone or never was"] = "tunica.cell|tunica.wall|tunica.side|tunica.junction|nil", ["the path"] = "string",
+local results = { ["a number"] = "number", ["a whole number"] = "integer", text = "string", ["true or false"] = "boolean",
+  ["a table"] = "table",
+  ["a surface"] = "tunica.surface", ["the tissue"] = "tunica.tissue", ["a model of phyllotaxis"] = "tunica.phyllotaxis",
+    ["x, y, z"] = "number x, number y, number z",
+  ["the parameters; P.name reads one"] = "tunica.parameters", ["the new cell"] = "tunica.cell",
+    ["the wall between them"] = "tunica.wall",
+  ["the element, or nil if it is gone or never was"] = "tunica.cell|tunica.wall|tunica.side|tunica.junction|nil",
+    ["the path"] = "string",
   ["the two daughters"] = "tunica.cell, tunica.cell", ["an iterator: neighbour, wall"] = "fun(): tunica.cell, tunica.wall",
   ["three numbers"] = "number, number, number", ["theta, a"] = "number theta, number a" }
 
@@ -74,7 +83,8 @@ local function options_class(entry, name, out)
     out[#out + 1] = string.format("---@field %s? %s %s", spec.name, type_of(spec), described(spec))
     if spec.position then out[#out + 1] = string.format("---@field [%d]? %s the same", spec.position, type_of(spec)) end
   end
-  if entry.rest then out[#out + 1] = string.format("---@field [string] %s %s", type_of(entry.rest), line(entry.rest.doc or "")) end
+  if entry.rest then out[#out + 1] = string.format("---@field [string] %s %s", type_of(entry.rest), line(entry.rest.doc or
+    "")) end
   out[#out + 1] = ""
 end
 
@@ -116,7 +126,8 @@ end
 
 --- The declarations as text.
 function stubs.text()
-  local out = { "---@meta tunica", "-- Written by scripts/reference from the registry of operations; for editors only, never run.\n",
+  local out = { "---@meta tunica", "-- Written by scripts/reference from the registry of operations; for editors only, " ..
+    "never run.\n",
     "---@class tunica.parameters\n---@field [string] number|string|boolean\n" }
   for _, owner in ipairs(pages.owners) do
     if objects[owner[1]] then class(owner[1], owner[2], out) end

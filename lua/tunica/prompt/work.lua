@@ -25,12 +25,15 @@ local function describe(model, source)
   local g = {}
   if desk.inside(model).tissue then g[#g + 1] = "tissue (" .. tostring(model.tissue) .. ")" end
   if model.params then g[#g + 1] = "P" end
-  say("%s now stand%s for it; help(model) says more", #g > 0 and "model, " .. table.concat(g, ", ") or "model", #g > 0 and "" or "s")
+  if #g == 0 then return say "model now stands for it; help(model) says more" end
+  say("model, %s now stand for it; help(model) says more", table.concat(g, ", "))
 end
 
 op { name = "prompt.load", kind = "named", rest = { type = "number|string|boolean", doc = "a parameter = its value" },
-  doc = "Loads a model into the variables model, tissue and P: a shipped one by its name (or the last part of it), or a script of your own by its path. Parameters may be changed at once, as on the command line.",
-  args = { { name = "name", type = "string", required = true, position = 1, doc = "of a shipped model, or the path of a script" } },
+  doc = "Loads a model into the variables model, tissue and P: a shipped one by its name (or the last part of it), or a script " ..
+    "of your own by its path. Parameters may be changed at once, as on the command line.",
+  args = { { name = "name", type = "string", required = true, position = 1, doc = "of a shipped model, or the path of a " ..
+    "script" } },
   example = loaded .. 'load { "patterning/ring", cells = 30 }',
   fn = function(o)
     local path, name, shipped = script.find(o.name)
@@ -47,10 +50,13 @@ op { name = "prompt.load", kind = "named", rest = { type = "number|string|boolea
 --- Reads the script again. Returns what is worth saying.
 local function reload()
   local model, source = desk.need_model "reload", desk.source
-  if not source then fail "reload: this model was typed here; load one from a file (transcript \"file\" writes what was typed)" end
+  if not source then
+    fail "reload: this model was typed here; load one from a file (transcript \"file\" writes what was typed)"
+  end
   local changed = script.changed(source)
   history.keep("reload", true)
-  local fresh, now = desk.run { path = source.path, name = source.name, shipped = source.shipped, overrides = source.overrides, use = source.built }
+  local fresh, now = desk.run { path = source.path, name = source.name, shipped = source.shipped,
+    overrides = source.overrides, use = source.built }
   local notes = carry.over(model, fresh, changed ~= nil)
   local old_tissue, g = desk.inside(model).tissue, desk.globals
   local handles = {}
@@ -72,7 +78,8 @@ local function say_reloaded()
 end
 
 op { name = "prompt.reload", fn = say_reloaded, example = loaded .. "reload()",
-  doc = "Reads the script of the model again. Tissue, time and state stay as they are; rules, views and the parameters that you did not change become those of the file. Says what could not be kept. If the file has an error nothing changes." }
+  doc = "Reads the script of the model again. Tissue, time and state stay as they are; rules, views and the parameters that " ..
+    "you did not change become those of the file. Says what could not be kept. If the file has an error nothing changes." }
 
 -- Watch -----------------------------------------------------------------------------------------------------------------
 
@@ -115,24 +122,31 @@ local function own_copy(source)
 end
 
 op { name = "prompt.edit",
-  doc = "Opens the script of the model in your editor ($VISUAL, else $EDITOR, else vi) and reads it again afterwards. Of a shipped model a copy is made in the current folder.",
+  doc = "Opens the script of the model in your editor ($VISUAL, else $EDITOR, else vi) and reads it again afterwards. Of a " ..
+    "shipped model a copy is made in the current folder.",
   example = loaded .. "print(edit)",
   fn = function()
     desk.need_model "edit"
-    if not desk.source then fail "edit: this model was typed here; transcript \"file\" writes what was typed, and load takes that" end
+    if not desk.source then
+      fail "edit: this model was typed here; transcript \"file\" writes what was typed, and load takes that"
+    end
     local path = own_copy(desk.source)
     local editor = os.getenv "VISUAL" or os.getenv "EDITOR" or ""
     if editor == "" then editor = "vi" end
     io.flush()
     local status = os.execute(editor .. " " .. quoted(path))
-    if status ~= 0 and status ~= true then fail("edit: '%s' did not end well (status %s); is $EDITOR right?", editor, tostring(status)) end
+    if status ~= 0 and status ~= true then
+      fail("edit: '%s' did not end well (status %s); is $EDITOR right?", editor, tostring(status))
+    end
     if script.changed(desk.source) then say_reloaded() else say("nothing was changed") end
   end }
 
 -- Parameters ------------------------------------------------------------------------------------------------------------
 
-op { name = "prompt.set", kind = "named", plain_table = false, rest = { type = "number|string|boolean", doc = "a parameter = its new value" },
-  doc = "Changes parameters of the model: all of them, or none if one is refused. They take effect at the next step; what a script did with them while it was loaded (the number of cells, say) stays. P.name = value does the same for one.",
+op { name = "prompt.set", kind = "named", rest = { type = "number|string|boolean",
+  doc = "a parameter = its new value" },
+  doc = "Changes parameters of the model: all of them, or none if one is refused. They take effect at the next step; what a " ..
+    "script did with them while it was loaded (the number of cells, say) stays. P.name = value does the same for one.",
   example = loaded .. "set { D = 0.5, T = 90 }",
   fn = function(o)
     local P = desk.need_model "set".params
@@ -148,7 +162,9 @@ op { name = "prompt.set", kind = "named", plain_table = false, rest = { type = "
       for name, value in pairs(before) do P[name] = value end
       fail("%s", (tostring(why):gsub("^%S-:%d+: ", "")))
     end
-    for name, value in pairs(o) do words[#words + 1] = string.format("%s %s -> %s", name, tostring(before[name]), tostring(value)) end
+    for name, value in pairs(o) do
+      words[#words + 1] = string.format("%s %s -> %s", name, tostring(before[name]), tostring(value))
+    end
     say("%s", table.concat(words, ", "))
   end }
 
@@ -159,8 +175,10 @@ local function tell(what, point)
   say("%s: %s%s", what, point.what, model and string.format("   (t = %.6g)", model.time) or "")
 end
 
-op { name = "prompt.undo", args = { { name = "times", type = "integer", min = 1, max = 1000, default = 1, doc = "so many changes back" } },
-  doc = string.format("Goes back to the state before the last run, step or change of the model: tissue, time, parameters, and which model it was. Up to %d states are kept, in %d MB together; the oldest go first.",
+op { name = "prompt.undo", args = { { name = "times", type = "integer", min = 1, max = 1000, default = 1,
+  doc = "so many changes back" } },
+  doc = string.format("Goes back to the state before the last run, step or change of the model: tissue, time, parameters, and " ..
+    "which model it was. Up to %d states are kept, in %d MB together; the oldest go first.",
     history.count, history.bytes / 2 ^ 20),
   example = loaded .. "set { D = 2 } undo()",
   fn = function(times)
@@ -198,7 +216,8 @@ local function brief(value)
   return #text > 60 and text:sub(1, 57) .. "..." or text
 end
 
-op { name = "prompt.who", doc = "Lists the variables that you, or a model, have made, and the parameters that are not as the file has them.",
+op { name = "prompt.who", doc = "Lists the variables that you, or a model, have made, and the parameters that are not as the " ..
+  "file has them.",
   example = loaded .. "who()",
   fn = function()
     local names, width = {}, 1
@@ -214,7 +233,9 @@ op { name = "prompt.who", doc = "Lists the variables that you, or a model, have 
       if params.is(value) then
         local all, changed = 0, {}
         for _ in pairs(params.values(value)) do all = all + 1 end
-        for key, now in pairs(desk.model() and desk.changed_parameters(desk.model()) or {}) do changed[#changed + 1] = key .. " = " .. tostring(now) end
+        for key, now in pairs(desk.model() and desk.changed_parameters(desk.model()) or {}) do
+          changed[#changed + 1] = key .. " = " .. tostring(now)
+        end
         text = string.format("%d parameters%s", all, #changed > 0 and "; changed: " .. table.concat(changed, ", ") or "")
       end
       say("%-" .. width .. "s  %s", name, text)
