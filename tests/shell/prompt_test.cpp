@@ -175,6 +175,8 @@ TEST_F(PromptTest, Completes) {
   EXPECT_TRUE(terminal_->shows("> model:snapshot")) << terminal_->screen().text();
   terminal_->type("\x15io.open \"/proc/self/cmd\t");
   EXPECT_TRUE(terminal_->shows("/proc/self/cmdline")) << terminal_->screen().text();
+  terminal_->type("\x15load \"patterning/si\b\bri\t");
+  EXPECT_TRUE(terminal_->shows("load \"patterning/ring")) << terminal_->screen().text();
   terminal_->type("\x15nothing_like_this\t\t");
   terminal_->watch(0.2);
   says(
@@ -251,6 +253,12 @@ TEST_F(PromptTest, StopsWhateverRuns) {
   says("run { by = 1 }", "now at t =");
   stops("model:at(model.time, function() while true do end end) run { by = 1 }");
   says("model.time > 0", "true");
+  says("ring = tunica.ring { 2000 } ring:cell { x = 1 }", "");
+  says("other = tunica.model { tissue = ring, dt = 0.001 }", "");
+  says("other:rate(function(c, d) if c.x ~= 2 then d.x = 0.1 end end)", "");
+  stops("run(other, 1e6)", 1);
+  stops("while true do local s = tunica.hexagons { 316, 316 } s:divide { above = 0.1 } end", 1);
+  stops("while true do tissue:picture { '" + (folder_ / "a.png").string() + "', size = 2000 } end", 1);
   std::sort(times.begin(), times.end());
   std::printf("median %.0f ms\n", times[times.size() / 2] * 1000);
 }
@@ -276,6 +284,18 @@ TEST_F(PromptTest, ASecondInterruptAsksToLeave) {
   EXPECT_EQ(terminal_->exit_code(), 143);
 }
 
+TEST_F(PromptTest, WhatCannotBeStoppedIsSaid) {
+  start({"-q"});
+  terminal_->type("string.rep('a', 30000):find(('a*'):rep(30) .. 'b')\r");
+  terminal_->watch(0.3);
+  terminal_->type("\x03");
+  terminal_->watch(0.4);
+  terminal_->type("\x03");
+  EXPECT_TRUE(terminal_->shows("still stopping")) << terminal_->screen().text();
+  terminal_->type("\x03");
+  EXPECT_EQ(terminal_->exit_code(), 130);
+}
+
 TEST_F(PromptTest, RunsLooksAndPlots) {
   start({"-q", "-i", "patterning/sheet", "cells=60"});
   says("run(model, {until = 2})", "now at t = 2: 200 steps");
@@ -283,10 +303,39 @@ TEST_F(PromptTest, RunsLooksAndPlots) {
   says("column \"auxin\"", "cells, ");
   says("plot \"peaks\"", "peaks over time");
   says("tissue", "auxin ");
+  says("?run", "Runs the model at hand");
+  says("reload()", "has not changed");
+  says("undo(2)", "");
   says("P", "diffusion");
   terminal_->type("show()\r");
   EXPECT_TRUE(terminal_->stands_at(">", 60)) << terminal_->screen().text();
   EXPECT_EQ(terminal_->screen().text().find("error"), std::string::npos) << terminal_->screen().text();
+}
+
+TEST_F(PromptTest, RulesTypedHereFollowVariables) {
+  start({"-q"});
+  says("tissue = tunica.ring { 10 } tissue:cell { x = 0 }", "");
+  says("model = tunica.model { tissue = tissue, dt = 1 }", "");
+  says("local rate = 1", "");
+  says("model:rate(function(c, d) d.x = rate end)", "");
+  says("run(2)", "now at t = 2");
+  says("tissue:mean 'x'", "\n2\n");
+  says("rate = 10", "");
+  says("run(3)", "now at t = 3");
+  says("tissue:mean 'x'", "\n12\n");
+  says("undo()", "");
+  says("tissue:mean 'x'", "\n2\n");
+}
+
+TEST_F(PromptTest, StartsAtOnce) {
+  double least = 1e9;
+  for (int i = 0; i < 5; ++i) {
+    const auto begin = Clock::now();
+    start();
+    least = std::min(least, std::chrono::duration<double>(Clock::now() - begin).count());
+  }
+  std::printf("from start to prompt: %.0f ms\n", least * 1000);
+  EXPECT_LT(least, 0.6);  // 60 ms on a machine with nothing else to do
 }
 
 TEST_F(PromptTest, HasManners) {

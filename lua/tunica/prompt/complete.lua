@@ -269,7 +269,7 @@ end
 
 local function shipped(prefix)
   local list = {}
-  for _, model in ipairs(session.models and session.models() or {}) do add(list, prefix, model.name, model.about) end
+  for _, model in ipairs(require("tunica.prompt.script").shipped()) do add(list, prefix, model.name, model.about) end
   return list
 end
 

@@ -191,6 +191,7 @@ command("run", "Runs the model at hand, or a given one: run(50) to t = 50, run {
   [[load "patterning/ring" run(1)]], function(a, b)
   local model, o = arguments("run", a, b, run_options)
   local goal = goal_of(model, o)
+  session.settle_variables()
   local steps, started = model.steps, core.now()
   local most = values.kind(model) == "phyllotaxis" and model.most or nil
   local bar = progress.new(goal, most, screen.terminal, o.quiet or not screen.terminal)
@@ -215,6 +216,7 @@ command("step", [[Takes one step of the method, or so many: step(10). Of phyllot
   local model, o = arguments("step", a, b, { "count" })
   local count = o.count or 1
   if count < 1 or count ~= math.floor(count) then fail("step: expected a whole number of steps from 1 on, came %.14g", count) end
+  session.settle_variables()
   local steps, started, status = model.steps, core.now(), nil
   for _ = 1, count do
     status = one_step(model)

@@ -214,6 +214,46 @@ local function turn_help(operation, word)
   end, "help")
 end
 
+-- Variables in rules ------------------------------------------------------------------------------------------------------
+
+local function is_plain(value)
+  local kind = type(value)
+  return kind == "number" or kind == "string" or kind == "boolean"
+end
+
+local known_values = {}
+
+--- Whether a plain variable of the prompt has another value than when this was asked last.
+local function changed_variables()
+  local changed = false
+  for name, value in next, names do
+    if name ~= "ans" and is_plain(value) and known_values[name] ~= value then
+      known_values[name], changed = value, true
+    end
+  end
+  return changed
+end
+
+local function has_typed_rule(my)
+  for _, r in ipairs(my.rules) do
+    if getfenv(r.fn) == names then return true end
+  end
+end
+
+--- Rules that were typed here may read variables of the prompt, which were traced as constants: once one has changed, such rules
+-- are traced again at the next step.
+function session.settle_variables()
+  if not changed_variables() then return end
+  for _, kind in ipairs { "model", "phyllotaxis" } do
+    local module = package.loaded["tunica." .. kind]
+    for _, my in next, module and module.inside or {} do
+      if my.held and has_typed_rule(my) then my.held = "" end
+    end
+  end
+end
+
+-- Inputs ------------------------------------------------------------------------------------------------------------------
+
 local leaving = false
 
 --- quit(): leaves at the end of this input.
@@ -260,6 +300,7 @@ function session.turn(text, last)
   if desk then desk.begin_line(text) end
   local ok = run(fn, name, hides == 0, kind)
   if desk then desk.end_line(ok) end
+  session.settle_variables()
   return leaving and "leave" or ok and "done" or "failed"
 end
 
