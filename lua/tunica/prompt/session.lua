@@ -270,12 +270,17 @@ end
 --- The model that a script returned, before the prompt came.
 function session.take(model, name)
   session.commands()
+  local desk = require "tunica.prompt.desk"
+  if not desk.inside(model) then  -- something that a script made to be run like a model
+    names.model = model
+    return
+  end
   local source = { name = name, files = {}, overrides = {}, built = {} }
   for i, file in ipairs(core.sources()) do source.files[i] = { path = file.path, text = file.text } end
   for key, value in pairs(core.overrides()) do source.overrides[key] = value end
   source.path = source.files[1] and source.files[1].path
   if not model.name then model.name = name end
-  require("tunica.prompt.desk").take(model, source.path and source.path ~= "-" and source or nil)
+  desk.take(model, source.path and source.path ~= "-" and source or nil)
 end
 
 --- Takes an input: "more" if it goes on in the next line, else "done" or "failed". `last`: there is no next line.
