@@ -170,7 +170,7 @@ function tissue:locate(options) end
 ---@field pinch? number how far the wall's ends are drawn in, as a fraction of its length (number 0 or more and less than 0.5; 0.08 if not given)
 ---@field on? tunica.surface the surface that the tissue lies on: new junctions are put onto it (surface (tunica.apex, tunica.bulges or tunica.surface))
 
----Divides cells, in the order of their identities. Four walls never meet in one point, and the ends of the wall are pinched as in living tissue. What daughters get is said where the columns are declared.
+---Divides cells, in the order of their identities. Four walls never meet in one point, and the ends of the wall are pinched as in living tissue. What daughters get is said where the columns are declared. A cell that cannot be divided as its rule says is an error, raised when all others are divided.
 ---
 ---Source: thesis 3.4, figs 3.7, 3.8
 ---@param options? tunica.tissue_divide_options|number
@@ -816,6 +816,30 @@ local contour = {}
 ---@return any # x, y, and the unit tangent's x, y
 function contour:at(u) end
 
+---The length of the contour, to 1e-12 of it.
+---@return number # a number
+function contour:length() end
+
+---The point of the contour at an arc length, to 1e-10 of its length.
+---@param s number arc length from the start, to the contour's length; of a closed contour any, which goes round (number; length; needed)
+---@return any # x, y
+function contour:along(s) end
+
+---The direction of the contour at an arc length, a unit vector; at a corner that of what follows.
+---@param s number arc length from the start, to the contour's length; of a closed contour any, which goes round (number; length; needed)
+---@return any # x, y
+function contour:tangent(s) end
+
+---The place of the contour nearest to a point, the first of several; its distance is the least to 1e-10 of the length.
+---@param x number of the point (number from -1e+100 to 1e+100; needed)
+---@param y number of the point (number from -1e+100 to 1e+100; needed)
+---@return any # its arc length, x, y
+function contour:closest(x, y) end
+
+---The area within the contour, positive if it runs counter-clockwise; one that is not closed is closed by a straight line from its end to its start. Exact.
+---@return number # a number
+function contour:area() end
+
 ---What the contour was drawn from.
 ---@return table # a list of { x, y }, the degree, and 'open', 'clamped' or 'closed'
 function contour:points() end
@@ -849,7 +873,7 @@ function curve:derivative(x) end
 function curve:integral(from, to) end
 
 ---What the curve was drawn from.
----@return table # a list of { x, y }, and the degree
+---@return table # a list of { x, y }, the degree, and the name
 function curve:points() end
 
 ---Writes the curve as a file of L-Studio (.func).
@@ -1092,7 +1116,7 @@ function tunica.contour(points, item) end
 ---@return number # a number, or a value of the rule
 function tunica.cos(x) end
 
----A function of one variable, drawn as a clamped B-spline, as growth along a profile or a threshold in time. Outside its points the values of its ends hold. A curve never changes.
+---A function of one variable, drawn as a clamped B-spline, as growth along a profile or a threshold in time. Outside its points the values of its ends hold. A curve never changes. In rules and fields those of degree 1 are traced.
 ---
 ---Source: thesis 3.3
 ---@param points any[]|string points { { x, y }, ... } whose x never decreases, with degree = (3, or what the points allow; 1: straight from point to point), name = ; or the name of a shipped curve, or a file of L-Studio (.func), relative to the script (list of items, or text; needed)
