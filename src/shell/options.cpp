@@ -25,6 +25,7 @@ Commands:
   tunica rerun DIR             repeat a run in a new directory and compare the result
   tunica chart MODEL           the error of every method against its time, and which to take
   tunica stability MODEL       the largest step of every method
+  tunica sweep MODEL ...       many runs: samples, a score, a search (tunica sweep --help)
 
 Exit codes: 0 done, 1 error in the script, 2 command line, 3 numerical failure, 4 files cannot be written,
   75 stopped by SIGUSR1 with a checkpoint, 129 hung up, 130 interrupted, 143 terminated.
@@ -112,11 +113,22 @@ std::string about_unknown(const CLI::App& app, const std::string& given) {
     for (const auto& name : option->get_fnames()) names.push_back("--" + name);
   }
   std::string bare = given.substr(0, given.find('='));
-  return fmt::format("unknown option '{}'{}; `tunica --help` lists them", bare, did_you_mean(bare, names));
+  return fmt::format("unknown option '{}'{}; `{} --help` lists them", bare, did_you_mean(bare, names), app.get_name());
 }
 
-/// True if it parsed; false if help was asked for.
-bool parse(CLI::App& app, int argc, char** argv) {
+void check(const Options& options) {
+  if (options.until && !(std::isfinite(*options.until) && *options.until >= 0))
+    throw UsageError{fmt::format("--until: expected a time from 0 on, got {}", *options.until)};
+  if (!(options.checkpoint > 0)) throw UsageError{"--checkpoint: expected a number of seconds above 0"};
+  if (!(options.error > 0 && options.error < 1)) throw UsageError{"--error: expected a number between 0 and 1"};
+  if (options.repeats < 1 || options.repeats > 1000) throw UsageError{"--repeats: expected a number from 1 to 1000"};
+  if (options.seconds && !(*options.seconds > 0)) throw UsageError{"--seconds: expected a number of seconds above 0"};
+  if (options.movie && options.frames == false) throw UsageError{"--movie needs frames; leave out --no-frames"};
+}
+
+}  // namespace
+
+bool parse_arguments(CLI::App& app, int argc, char** argv) {
   app.allow_extras();
   try {
     app.parse(argc, argv);
@@ -133,18 +145,6 @@ bool parse(CLI::App& app, int argc, char** argv) {
   return true;
 }
 
-void check(const Options& options) {
-  if (options.until && !(std::isfinite(*options.until) && *options.until >= 0))
-    throw UsageError{fmt::format("--until: expected a time from 0 on, got {}", *options.until)};
-  if (!(options.checkpoint > 0)) throw UsageError{"--checkpoint: expected a number of seconds above 0"};
-  if (!(options.error > 0 && options.error < 1)) throw UsageError{"--error: expected a number between 0 and 1"};
-  if (options.repeats < 1 || options.repeats > 1000) throw UsageError{"--repeats: expected a number from 1 to 1000"};
-  if (options.seconds && !(*options.seconds > 0)) throw UsageError{"--seconds: expected a number of seconds above 0"};
-  if (options.movie && options.frames == false) throw UsageError{"--movie needs frames; leave out --no-frames"};
-}
-
-}  // namespace
-
 std::optional<Options> read_options(int argc, char** argv) {
   Options options;
   CLI::App app(about, "tunica");
@@ -153,12 +153,12 @@ std::optional<Options> read_options(int argc, char** argv) {
   if (first == "models") {
     options.command = Options::Command::models;
     app.add_flag("--json", options.json, "as one JSON object");
-    return parse(app, argc - 1, argv + 1) ? std::optional(options) : std::nullopt;
+    return parse_arguments(app, argc - 1, argv + 1) ? std::optional(options) : std::nullopt;
   }
   if (first == "chart" || first == "stability") {
     options.command = first == "chart" ? Options::Command::chart : Options::Command::stability;
     add_study_options(app, options);
-    if (!parse(app, argc - 1, argv + 1)) return std::nullopt;
+    if (!parse_arguments(app, argc - 1, argv + 1)) return std::nullopt;
     check(options);
     return options;
   }
@@ -166,11 +166,11 @@ std::optional<Options> read_options(int argc, char** argv) {
   if (first == "resume" || first == "rerun") {
     options.command = first == "resume" ? Options::Command::resume : Options::Command::rerun;
     app.add_option("directory", options.directory, "run directory")->type_name("DIR")->required();
-    if (!parse(app, argc - 1, argv + 1)) return std::nullopt;
+    if (!parse_arguments(app, argc - 1, argv + 1)) return std::nullopt;
   } else {
     add_script_options(app, options);
     app.footer(closing);
-    if (!parse(app, argc, argv)) return std::nullopt;
+    if (!parse_arguments(app, argc, argv)) return std::nullopt;
   }
   check(options);
   return options;

@@ -6,6 +6,10 @@
 #include <string>
 #include <vector>
 
+namespace CLI {
+class App;
+}
+
 namespace tunica::shell {
 
 /// What the command line asks for.
@@ -38,5 +42,9 @@ struct UsageError {
 
 /// Reads the command line. Returns nothing if it was --help, which has then been printed. Errors: UsageError.
 std::optional<Options> read_options(int argc, char** argv);
+
+/// Parses what an application declares; what it does not know is an error that names the nearest option. False if help
+/// was asked for, which has then been printed. Errors: UsageError.
+bool parse_arguments(CLI::App& app, int argc, char** argv);
 
 }  // namespace tunica::shell

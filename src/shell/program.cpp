@@ -17,6 +17,7 @@
 #include "shell/options.h"
 #include "shell/places.h"
 #include "shell/prompt.h"
+#include "shell/sweep.h"
 #include "shell/terminal.h"
 #include "shell/version.h"
 
@@ -187,6 +188,7 @@ int flush_output(int code) {
 
 int run_program(int argc, char** argv) {
   try {
+    if (argc > 1 && std::strcmp(argv[1], "sweep") == 0) return flush_output(sweep_command(argc - 1, argv + 1));
     auto options = read_options(argc, argv);
     if (options && options->colour != "auto")
       choose_colour(options->colour == "always" ? Colour::always : Colour::never);

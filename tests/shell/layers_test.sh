@@ -3,7 +3,7 @@
 # neither exits nor prints nor takes signals.
 set -u
 cd "$(dirname "$0")/../../src" || exit 1
-order=(base tissue shape rule solve field mechanics light view capi lua shell)
+order=(base tissue shape rule solve field mechanics light view sweep capi lua shell)
 failed=0
 wrong() { echo "$1"; failed=1; }
 

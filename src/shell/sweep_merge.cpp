@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "shell/exit_codes.h"
+#include "shell/options.h"
+#include "shell/sweep.h"
+#include "shell/sweep_plan.h"
+#include "shell/terminal.h"
+#include "sweep/table.h"
+
+namespace tunica::shell {
+
+namespace {
+
+/// Takes over what a part has and the whole lacks. Returns how many runs.
+size_t take_over(sweep::Table& whole, const sweep::Table& part) {
+  std::map<int64_t, sweep::SampleRow> samples;
+  for (auto& row : whole.samples()) samples.emplace(row.sample, row);
+  for (const auto& row : part.samples()) {
+    const auto found = samples.find(row.sample);
+    if (found == samples.end())
+      whole.add_sample(row);
+    else if (found->second.parameters != row.parameters)
+      throw UsageError{fmt::format("'{}' holds other values for sample {}", part.path(), row.sample)};
+  }
+  std::map<std::pair<int64_t, uint64_t>, sweep::RunRow> runs;
+  for (auto& row : whole.runs()) runs.emplace(std::pair(row.sample, row.seed), row);
+  size_t taken = 0;
+  for (const auto& row : part.runs()) {
+    const auto found = runs.find({row.sample, row.seed});
+    if (found == runs.end() || (found->second.status != "done" && row.status == "done")) {
+      whole.add_run(row);
+      ++taken;
+    } else if (row.status == "done" && found->second.result != row.result) {
+      throw UsageError{fmt::format("'{}' has another result for sample {}, seed {}: the machines differ, or one erred",
+                                   part.path(), row.sample, row.seed)};
+    }
+  }
+  return taken;
+}
+
+}  // namespace
+
+int merge_sweeps(const SweepOptions& options) try {
+  if (options.files.size() < 2)
+    throw UsageError{"merge: expected a new file and the parts: tunica sweep merge all.db part*.db"};
+  const std::string& out = options.files[0];
+  if (!lock_file(out + ".lock")) throw UsageError{fmt::format("'{}' is in use: another sweep writes to it", out)};
+  for (size_t i = 1; i < options.files.size(); ++i)
+    if (!std::filesystem::exists(options.files[i]))
+      throw UsageError{fmt::format("there is no file '{}'", options.files[i])};
+  sweep::Table whole(out, sweep::Table::Mode::write);
+  for (size_t i = 1; i < options.files.size(); ++i) {
+    const sweep::Table part(options.files[i], sweep::Table::Mode::read);
+    const auto here = whole.note("identity"), there = part.note("identity");
+    if (!there) throw UsageError{fmt::format("'{}' was stopped before its first run", part.path())};
+    if (here)
+      if (const std::string what = difference(*here, *there); !what.empty())
+        throw UsageError{fmt::format("'{}' is of another sweep than '{}': {}", part.path(), out, what)};
+    for (const char* name : {"identity", "model", "script", "about", "settings"})
+      if (const auto text = part.note(name); text && !here) whole.set_note(name, *text);
+    const size_t taken = take_over(whole, part);
+    whole.commit();
+    fmt::print("{}: {} runs\n", part.path(), taken);
+  }
+  return ok;
+} catch (const Error& error) {
+  say_error(error.what());
+  return file_error;
+}
+
+}  // namespace tunica::shell

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "shell/sweep_model.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "lua/guard.h"
+#include "shell/exit_codes.h"
+#include "shell/places.h"
+#include "shell/sweep_pool.h"
+#include "shell/terminal.h"
+
+namespace tunica::shell {
+
+namespace {
+
+Script read_script(const std::string& given) {
+  try {
+    const std::string path = find_script(given);
+    return {path, "@" + path, read_file(path, size_t{64} << 20), std::filesystem::path(path).parent_path().string()};
+  } catch (const Error& error) {
+    throw UsageError{error.what()};
+  }
+}
+
+bool write_all(int descriptor, const char* bytes, size_t size) {
+  while (size > 0) {
+    const ssize_t count = write(descriptor, bytes, size);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    bytes += count;
+    size -= static_cast<size_t>(count);
+  }
+  return true;
+}
+
+bool require(Session& session, const char* module) {
+  lua_getglobal(session.lua(), "require");
+  lua_pushstring(session.lua(), module);
+  return session.call(1, 1);
+}
+
+std::optional<double> number_in(const nlohmann::json& json, const char* name) {
+  return json.contains(name) ? std::optional(json.at(name).get<double>()) : std::nullopt;
+}
+
+}  // namespace
+
+Description read_description(const std::string& text) {
+  using Type = sweep::Parameter::Type;
+  Description about;
+  const auto json = nlohmann::json::parse(text);
+  for (const auto& p : json.at("parameters")) {
+    const std::string type = p.at("type");
+    about.parameters.push_back({.name = p.at("name"),
+                                .type = type == "number"    ? Type::number
+                                        : type == "boolean" ? Type::boolean
+                                                            : Type::text,
+                                .value = p.at("value"),
+                                .min = number_in(p, "min"),
+                                .max = number_in(p, "max")});
+  }
+  about.reports = json.at("reports").get<std::vector<std::string>>();
+  about.hash = json.at("script");
+  about.json = text;
+  return about;
+}
+
+SweepModel::SweepModel(const std::string& given) : given_(given), script_(read_script(given)), session_(1) {
+  // What every run needs is loaded before the first fork, so that a run costs no more than itself. The library takes
+  // the globals that it finds for Lua's own: `arg` is one of them, as in a run by itself.
+  session_.set_arguments(given_, {});
+  for (const char* module : {"tunica", "tunica.sweep.run", "tunica.sweep.score"}) {
+    if (!require(session_, module)) fail("the library cannot be loaded: {}", session_.error());
+    lua_pop(session_.lua(), 1);
+  }
+}
+
+bool SweepModel::load(const Values& values, uint64_t seed) {
+  lua::host(session_.lua()).seed = seed;
+  session_.set_parameters(values);
+  std::vector<std::string> arguments;
+  for (const auto& [name, value] : values) arguments.push_back(name + "=" + value);
+  session_.set_arguments(given_, arguments);
+  return session_.run(script_, true);
+}
+
+int SweepModel::write_result(const char* function, std::optional<double> until, int descriptor) {
+  lua_State* L = session_.lua();
+  if (!require(session_, "tunica.sweep.run")) return session_.exit_code();
+  lua_getfield(L, -1, function);
+  lua_remove(L, -2);
+  lua_insert(L, -2);  // below what the script returned
+  until ? lua_pushnumber(L, *until) : lua_pushnil(L);
+  if (!session_.call(2, 2)) return session_.exit_code();
+  size_t size = 0;
+  if (const char* text = lua_tolstring(L, -2, &size)) return write_all(descriptor, text, size) ? ok : file_error;
+  say_error(lua_tostring(L, -1));
+  return numerical_failure;
+}
+
+Description SweepModel::describe(const Values& values, std::optional<double> until) {
+  Pool pool(1, {.seconds = 60}, [&](size_t, int descriptor) {
+    return load(values, 1) ? write_result("describe", until, descriptor) : session_.exit_code();
+  });
+  pool.start(0);
+  for (;;) {
+    if (session_.interrupts().signal()) throw UsageError{"interrupted"};
+    const auto outcome = pool.wait(1);
+    if (!outcome) continue;
+    if (outcome->status == "done") return read_description(outcome->result);
+    throw UsageError{fmt::format("'{}': {}", given_, outcome->message)};
+  }
+}
+
+int SweepModel::run(const Values& values, uint64_t seed, std::optional<double> until, int descriptor) {
+  return load(values, seed) ? write_result("run", until, descriptor) : session_.exit_code();
+}
+
+}  // namespace tunica::shell

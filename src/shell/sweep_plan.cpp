@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "shell/sweep_plan.h"
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "shell/version.h"
+
+namespace tunica::shell {
+
+namespace {
+
+using nlohmann::json;
+using sweep::Sampling;
+
+/// What two sweeps must have in common for their rows to be of one table.
+json identity_of(const SweepOptions& options, const SweepPlan& plan) {
+  json ranges = json::array();
+  for (const auto& range : plan.ranges) ranges.push_back({range.name, range.text()});
+  return {{"script", plan.about.hash},
+          {"program", versions_as_text()},
+          {"parameters", ranges},
+          {"sampling", name_of(options.sampling)},
+          {"sampling seed", options.sampling_seed},
+          {"until", options.until ? json(*options.until) : json("the model's own")}};
+}
+
+/// Of the last command; `show` reads them.
+json settings_of(const SweepOptions& options) {
+  return {{"seeds", options.seeds},       {"fresh", options.fresh},     {"score", options.score},
+          {"minimize", options.minimize}, {"winners", options.winners}, {"shard", options.shard},
+          {"shards", options.shards}};
+}
+
+std::string name_and_text(const json& range) {
+  return fmt::format("{}={}", range.at(0).get<std::string>(), range.at(1).get<std::string>());
+}
+
+std::string all_ranges(const json& ranges) {
+  std::vector<std::string> parts;
+  for (const auto& range : ranges) parts.push_back(name_and_text(range));
+  return fmt::format("{}", fmt::join(parts, " "));
+}
+
+std::string as_text(const json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+
+/// The samples of the plan, those that the file has already compared.
+void settle_samples(sweep::Table& table, const SweepOptions& options, const SweepPlan& plan) {
+  const auto there = table.samples();
+  size_t known = 0;
+  while (known < there.size() && there[known].origin == name_of(options.sampling)) ++known;
+  for (size_t i = 0; i < std::min(known, plan.samples.size()); ++i)
+    if (there[i].parameters != plan.samples[i])
+      throw UsageError{fmt::format("'{}' holds other values for sample {}", table.path(), i + 1)};
+  if (plan.samples.size() > known && there.size() > known)
+    throw UsageError{fmt::format("'{}' was refined from {} samples; more cannot be added to it; choose another --out",
+                                 table.path(), known)};
+  for (size_t i = known; i < plan.samples.size(); ++i)
+    table.add_sample({static_cast<int64_t>(i) + 1, name_of(options.sampling), plan.samples[i]});
+}
+
+}  // namespace
+
+Values SweepPlan::values(const sweep::Sample& sample) const {
+  Values values;
+  for (size_t i = 0; i < ranges.size(); ++i) values[ranges[i].name] = sample[i];
+  return values;
+}
+
+SweepPlan make_plan(SweepModel& model, const SweepOptions& options) {
+  SweepPlan plan;
+  plan.about = model.describe({}, options.until);
+  Values fixed;
+  bool varies = false;
+  try {
+    plan.ranges = sweep::read_ranges(plan.about.parameters, options.arguments);
+    for (const auto& range : plan.ranges) {
+      varies = varies || range.varies();
+      if (!range.varies()) fixed[range.name] = range.values[0];
+    }
+    plan.samples = sweep::make_samples(plan.ranges, options.sampling, options.count, options.sampling_seed);
+  } catch (const Error& error) {
+    throw UsageError{error.what()};
+  }
+  if (!varies && options.sampling == Sampling::none && options.refine > 0)
+    throw UsageError{"no parameter varies: give one a range (D=3..5)"};
+  if (options.sampling == Sampling::none && options.refine == 0)
+    throw UsageError{varies ? "how are the ranges to be sampled? Say --grid, --random N, --sobol N or --refine N"
+                            : "nothing varies: give a parameter a range (D=3..5) or a list (D=3,4,5), and say --grid, "
+                              "--random N, --sobol N or --refine N"};
+  // The model's reports may depend on what is fixed; and what is wrong with these values is said before anything is
+  // run.
+  const std::string hash = plan.about.hash;
+  if (!fixed.empty()) plan.about = model.describe(fixed, options.until);
+  return plan;
+}
+
+std::string difference(const std::string& there_text, const std::string& here_text) {
+  const json there = json::parse(there_text), here = json::parse(here_text);
+  if (there.at("script") != here.at("script")) return "the script (or a file that it reads) has changed since";
+  if (there.at("parameters") != here.at("parameters"))
+    return fmt::format("it varies {}, and not {}", all_ranges(there.at("parameters")),
+                       all_ranges(here.at("parameters")));
+  for (const char* name : {"program", "sampling", "sampling seed", "until"})
+    if (there.at(name) != here.at(name))
+      return fmt::format("{} is {} now, and was {} there", name, as_text(here.at(name)), as_text(there.at(name)));
+  return "";
+}
+
+void settle_plan(sweep::Table& table, const SweepModel& model, const SweepOptions& options, const SweepPlan& plan) {
+  const std::string identity = identity_of(options, plan).dump();
+  if (const auto there = table.note("identity")) {
+    if (const std::string what = difference(*there, identity); !what.empty())
+      throw UsageError{fmt::format("'{}' holds another sweep: {}; choose another --out", table.path(), what)};
+  } else {
+    table.set_note("identity", identity);
+    table.set_note("model", model.given());
+    table.set_note("script", model.script().text);
+    table.set_note("about", plan.about.json);
+  }
+  settle_samples(table, options, plan);
+  const std::string settings = settings_of(options).dump();
+  if (table.note("settings") != settings) table.set_note("settings", settings);
+  table.commit();
+}
+
+}  // namespace tunica::shell

@@ -1,0 +1,158 @@
+#!/usr/bin/env bash
+# tunica sweep: the same table however often it was killed and whatever the number of processes; runs that crash, hang or
+# eat memory are rows; what is wrong on the command line is said; a full disk loses nothing.
+source "$(dirname "$0")/common.sh"
+
+cat >model.lua <<'LUA'
+local tunica = require "tunica"
+local P = tunica.params { a = { 1, "makes", min = 0, max = 10 }, b = { 2, "decay" }, wait = 0, way = "good", n = 3 }
+local core = require "tunica.core"
+local begun = core.now()
+while core.now() - begun < P.wait do end
+if P.way == "error" then error "a mistake" end
+if P.way == "crash" then os.execute "kill -SEGV $PPID" end
+if P.way == "hang" then while true do pcall(function() while true do end end) end end
+if P.way == "memory" then
+  local list = {}
+  for i = 1, 1e9 do list[i] = ("x"):rep(1e6) .. i end
+end
+local tissue = tunica.hexagons { 4, 4 }
+tissue:cell { auxin = function(c) return 1 + c:uniform(-0.1, 0.1) end }
+local model = tunica.model { tissue = tissue, params = P, dt = 0.05, stop = 1 }
+model:rate(function(c, d) d.auxin = P.a - P.b * c.auxin end)
+model:at(0.5, function() P.b = P.b * (1 + 0.1 * math.random()) end)
+model:report { every = 0.2, mean = function() return tissue:mean "auxin" end, word = function() return P.way end,
+  inner = function() return { twice = 2 * P.a } end }
+return model
+LUA
+
+sweep() { "$tunica" sweep model.lua "$@" 2>err.txt; }
+table() { "$tunica" sweep show "$1" --csv; }
+
+# --- The same table.
+code 0 "$tunica" sweep model.lua a=0..5 b=.5..3 wait=0.002 --random 50 --seeds 1..4 --score "mean - 0.1 * a" --out one.db --jobs 1
+says out.txt "score on fresh seeds"
+code 0 "$tunica" sweep model.lua a=0..5 b=.5..3 wait=0.002 --random 50 --seeds 1..4 --score "mean - 0.1 * a" --out two.db --jobs 3 -q
+silent out.txt
+table one.db >one.csv
+table two.db >two.csv
+same one.csv two.csv
+[ "$(wc -l <one.csv)" -eq 221 ] || wrong "200 runs, 20 of winners and a head make $(wc -l <one.csv) lines"
+killed=0
+for i in $(seq 1 40); do
+  "$tunica" sweep model.lua a=0..5 b=.5..3 wait=0.002 --random 50 --seeds 1..4 --score "mean - 0.1 * a" --out killed.db --jobs 2 -q &
+  process=$!
+  sleep "0.$((2 + RANDOM % 5))"
+  kill -9 $process 2>/dev/null && killed=$((killed + 1))
+  wait $process 2>/dev/null && break
+done
+[ "$killed" -ge 1 ] || wrong "no sweep was killed"
+code 0 sweep a=0..5 b=.5..3 wait=0.002 --random 50 --seeds 1..4 --score "mean - 0.1 * a" --out killed.db -q
+table killed.db >killed.csv
+same one.csv killed.csv
+# Ctrl-C keeps what is done.
+"$tunica" sweep model.lua a=0..5 wait=0.05 --random 100 --out stopped.db --jobs 2 -q 2>err.txt &
+process=$!
+sleep 1
+kill -INT $process
+wait $process
+[ $? -eq 130 ] || wrong "SIGINT: not 130"
+says err.txt "the same command goes on"
+[ "$(table stopped.db | wc -l)" -gt 3 ] || wrong "Ctrl-C lost the runs"
+
+# --- A run of a sweep is a run by itself.
+line=$("$tunica" sweep show one.db --sample 7 | grep -m1 "tunica model.lua")
+hash=$("$tunica" sweep show one.db --sample 7 | grep -m1 hash | sed 's/.*= //')
+"$tunica" ${line#*tunica } -q --no-frames --out alone >alone.txt
+grep -q "hash *$hash" alone.txt || wrong "a run by itself differs: $line"
+
+# --- What goes wrong is a row.
+code 0 sweep way=good,error,crash,hang,memory a=1,2 --grid --time-limit 3 --memory 100 --out bad.db -q
+table bad.db | cut -d, -f 1,4 >status.txt
+printf '%s\n' sample,status 1,done 2,done 3,failed 4,failed 5,crashed 6,crashed 7,time 8,time 9,memory 10,memory >expected.txt
+same status.txt expected.txt
+"$tunica" sweep show bad.db --failures >failures.txt
+says failures.txt "a mistake"
+says failures.txt "not done after 3 s"
+says failures.txt "limit of 100 MB"
+code 0 sweep way=good,error,crash,hang,memory a=1,2 --grid --time-limit 3 --memory 100 --out bad.db
+[ ! -s err.txt ] || wrong "runs that failed are made again"
+
+# --- The command line.
+refused() {
+  local text=$1
+  shift
+  code 2 sweep "$@" --out refused.db
+  says err.txt "$text"
+  [ ! -e refused.db ] || wrong "refused, and yet there is a file: $*"
+}
+refused "the range 5..0 is reversed" a=5..0 --random 3
+refused "did you mean 'way'" wy=1..2 --random 3
+refused "expected at most 10, got 50" a=0..50 --random 3
+refused "did you mean 'mean'" a=0..5 --random 3 --score "2 * meen"
+refused "needs the number of steps" a=0..5 --grid
+refused "no parameter varies" a=1 --random 3
+refused "is among --seeds" a=0..5 --random 3 --score mean --seeds 1..4 --fresh-seeds 4..6
+refused "--seeds: 4..1 is reversed" a=0..5 --random 3 --seeds 4..1
+refused "how are the ranges to be sampled" a=0..5
+code 0 sweep a=0..5 --random 3 --score word --out word.db
+says err.txt "the score is no number but the text 'good'"
+echo 'local P = require("tunica").params { a = 1 }; return 3' >nothing.lua
+code 2 "$tunica" sweep nothing.lua a=0..1 --random 3
+says err.txt "no model"
+cat >mute.lua <<'LUA'
+local tunica = require "tunica"
+tunica.params { a = 1 }
+return tunica.model { tissue = tunica.hexagons { 3, 3 }, dt = 1, stop = 1 }
+LUA
+code 2 "$tunica" sweep mute.lua a=0..1 --random 3
+says err.txt "no report"
+
+# --- Files are not mixed.
+code 2 sweep a=0..4 b=.5..3 wait=0.002 --random 50 --seeds 1..4 --out one.db
+says err.txt "a=0..5 b=0.5..3"
+code 2 sweep a=0..5 b=.5..3 wait=0.002 --sobol 50 --seeds 1..4 --out one.db
+says err.txt "sampling is sobol now, and was random there"
+cp model.lua keep.lua
+echo "-- changed" >>model.lua
+code 2 sweep a=0..5 b=.5..3 wait=0.002 --random 50 --seeds 1..4 --out one.db
+says err.txt "the script (or a file that it reads) has changed"
+cp keep.lua model.lua
+echo "no database at all" >text.db
+code 2 sweep a=0..5 --random 3 --out text.db
+says err.txt "not the file of a sweep"
+"$tunica" sweep model.lua a=0..5 wait=0.1 --random 30 --out busy.db -q &
+process=$!
+sleep 0.7
+code 2 sweep a=0..5 wait=0.1 --random 30 --out busy.db
+says err.txt "in use"
+wait $process
+# More samples and seeds may be added: the first stay.
+code 0 sweep a=0..5 --sobol 8 --out more.db -q
+code 0 sweep a=0..5 --sobol 16 --seeds 1..2 --out more.db -q
+code 0 sweep a=0..5 --sobol 16 --seeds 1..2 --out whole.db -q
+table more.db >more.csv
+table whole.db >whole.csv
+same more.csv whole.csv
+
+# --- Parts.
+for k in 1 2 3; do code 0 sweep a=0..5 --sobol 16 --seeds 1..2 --shard $k/3 --out part$k.db -q; done
+code 0 "$tunica" sweep merge merged.db part1.db part2.db part3.db
+table merged.db >merged.csv
+same merged.csv whole.csv
+
+# --- A full disk, as a limit of the file's size.
+(
+  ulimit -f 60
+  "$tunica" sweep model.lua a=0..5 --random 200 --out full.db -q >out.txt 2>err.txt
+  [ $? -eq 4 ] || echo "WRONG code" >>err.txt
+)
+says err.txt "are kept"
+grep -q WRONG err.txt && wrong "a full disk: not 4"
+code 0 "$tunica" sweep show full.db
+code 0 sweep a=0..5 --random 200 --out full.db -q
+code 0 sweep a=0..5 --random 200 --out roomy.db -q
+table full.db >full.csv
+table roomy.db >roomy.csv
+same full.csv roomy.csv
+finish
