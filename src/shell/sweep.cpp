@@ -10,7 +10,7 @@
 #include "shell/exit_codes.h"
 #include "shell/options.h"
 #include "shell/places.h"
-#include "shell/sweep_work.h"
+#include "shell/sweep_refine.h"
 #include "shell/terminal.h"
 
 namespace tunica::shell {
@@ -74,8 +74,11 @@ std::unique_ptr<sweep::Table> open_table(const std::string& path) {
 }
 
 /// All that is to be run. False when stopped by a signal.
-bool run_all(SweepWork& work, const SweepOptions& options, const SweepPlan& plan) {
+bool run_all(SweepWork& work, const SweepOptions& options, const SweepPlan& plan, sweep::Table& table) {
+  const size_t samples = plan.samples.size() / options.shards + options.refine;
+  work.expect(samples * options.seeds.size() + (options.score.empty() ? 0 : options.winners * options.fresh.size()));
   if (!run_samples(work, options, plan)) return false;
+  if (options.refine > 0 && !refine(work, options, plan, table)) return false;
   return options.score.empty() || options.shards > 1 || run_winners(work, options);
 }
 
@@ -92,7 +95,8 @@ int run_sweep(SweepOptions& options) {
     settle_plan(*table, model, options, plan);
     if (options.retry) table->remove_failures();
     SweepWork work(model, plan, options, *table, scorer.get());
-    const bool whole = run_all(work, options, plan);
+    const bool whole = run_all(work, options, plan, *table);
+    table->commit();
     say_how_it_went(work, options);
     if (!whole) {
       say_note(fmt::format("stopped; all finished runs are in '{}'; the same command goes on", options.out));

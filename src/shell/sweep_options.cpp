@@ -105,7 +105,9 @@ void add_search(CLI::App& app, SweepOptions& options) {
   app.add_flag("--minimize,!--maximize", options.minimize, "the least score is the best (default: the greatest)");
   app.add_option("--refine", options.refine, "so many evaluations of an optimizer, from the best sample or the model")
       ->type_name("N");
-  app.add_option("--method", options.method, "its method (default cmaes)")->type_name("NAME");
+  app.add_option("--method", options.method, "its method (default cmaes)")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"cmaes"}));
   app.add_option("--step", options.step, "its first step as a share of each range (default 0.2)")->type_name("S");
   app.add_option("--population", options.population, "evaluations of one generation (default by parameters)")
       ->type_name("N");

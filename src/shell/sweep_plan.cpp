@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shell/sweep_plan.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -82,8 +83,9 @@ SweepPlan make_plan(SweepModel& model, const SweepOptions& options) {
   } catch (const Error& error) {
     throw UsageError{error.what()};
   }
-  if (!varies && options.sampling == Sampling::none && options.refine > 0)
-    throw UsageError{"no parameter varies: give one a range (D=3..5)"};
+  if (options.refine > 0 && std::none_of(plan.ranges.begin(), plan.ranges.end(),
+                                         [](const auto& range) { return range.kind == sweep::Range::Kind::interval; }))
+    throw UsageError{"--refine moves within ranges (D=3..5), and there is none"};
   if (options.sampling == Sampling::none && options.refine == 0)
     throw UsageError{varies ? "how are the ranges to be sampled? Say --grid, --random N, --sobol N or --refine N"
                             : "nothing varies: give a parameter a range (D=3..5) or a list (D=3,4,5), and say --grid, "

@@ -90,7 +90,7 @@ void SweepWork::keep(const Task& task, const Outcome& outcome) {
   cpu_ += outcome.cpu_seconds;
 }
 
-void SweepWork::show_progress(size_t done, size_t all, bool last) {
+void SweepWork::show_progress(bool last) {
   if (options_.quiet) return;
   const bool terminal = error_is_terminal();
   if (last) {
@@ -99,9 +99,11 @@ void SweepWork::show_progress(size_t done, size_t all, bool last) {
   }
   if (since(shown_) < (terminal ? 0.25 : 30)) return;
   shown_ = Clock::now();
-  const double left = since(begun_) / static_cast<double>(done) * static_cast<double>(all - done);
-  fmt::print(stderr, "{}{} of {} runs{}, {} to go{}", terminal ? "\r\033[K" : "", done, all,
-             failed_ ? fmt::format(" ({} failed)", failed_) : "", clock(left), terminal ? "" : "\n");
+  const size_t done = made_ + passed_over_, all = std::max(done, expected_);
+  const double left = since(begun_) / static_cast<double>(made_) * static_cast<double>(all - done);
+  fmt::print(stderr, "{}{} of {} runs{}, {} to go{}{}", terminal ? "\r\033[K" : "", done, all,
+             failed_ ? fmt::format(" ({} failed)", failed_) : "", clock(left), remark_.empty() ? "" : ", " + remark_,
+             terminal ? "" : "\n");
   std::fflush(stderr);
 }
 
@@ -109,14 +111,14 @@ bool SweepWork::run(const std::vector<Task>& all) {
   std::vector<Task> tasks;
   for (const auto& task : all)
     if (!known_.contains({task.sample, task.seed})) tasks.push_back(task);
+  passed_over_ += all.size() - tasks.size();
   if (tasks.empty()) return true;
-  table_.commit();
   const double memory = options_.memory > 0 ? options_.memory : default_memory(options_.jobs);
   Pool pool(options_.jobs, {options_.time_limit, memory}, [&](size_t i, int descriptor) {
     return model_.run(plan_.values(samples_.at(tasks[i].sample).parameters), tasks[i].seed, options_.until, descriptor);
   });
-  begun_ = shown_ = Clock::now();
-  size_t next = 0, done = 0;
+  const auto begun = Clock::now();
+  size_t next = 0;
   const auto stopped = [&] { return model_.session().interrupts().signal() != 0; };
   while ((next < tasks.size() || !pool.empty()) && !stopped()) {
     while (next < tasks.size() && !pool.full() && !stopped()) pool.start(next++);
@@ -126,14 +128,13 @@ bool SweepWork::run(const std::vector<Task>& all) {
     if (outcome && next < tasks.size() && !stopped()) pool.start(next++);
     if (outcome) {
       keep(tasks[outcome->job], *outcome);
-      show_progress(++done, tasks.size(), false);
+      show_progress(false);
     }
     if (table_.pending() >= longest_uncommitted) table_.commit();
   }
   pool.stop();
-  table_.commit();
-  show_progress(done, tasks.size(), true);
-  wall_ += since(begun_);
+  show_progress(true);
+  wall_ += since(begun);
   return !stopped();
 }
 

@@ -41,6 +41,10 @@ class SweepWork {
   std::optional<double> score(int64_t sample, const std::vector<uint64_t>& seeds, std::string* why = nullptr) const;
 
   const std::map<int64_t, sweep::SampleRow>& samples() const { return samples_; }
+  /// For the line of progress: runs that are to come in all, and words at its end.
+  void expect(size_t runs) { expected_ = runs; }
+  void remark(const std::string& text) { remark_ = text; }
+
   size_t made() const { return made_; }
   size_t failed() const { return failed_; }  ///< of those made now
   /// Share of the processes' time, from the first run to the last, in which a run was going on.
@@ -52,7 +56,7 @@ class SweepWork {
   using Key = std::pair<int64_t, uint64_t>;
   void note(const sweep::RunRow& row);
   void keep(const Task& task, const Outcome& outcome);
-  void show_progress(size_t done, size_t all, bool last);
+  void show_progress(bool last);
 
   SweepModel& model_;
   const SweepPlan& plan_;
@@ -62,9 +66,10 @@ class SweepWork {
   std::map<Key, Known> known_;
   std::map<int64_t, sweep::SampleRow> samples_;
   std::map<sweep::Sample, int64_t> numbers_;
-  size_t made_ = 0, failed_ = 0;
+  size_t made_ = 0, failed_ = 0, expected_ = 0, passed_over_ = 0;
+  std::string remark_;
   double wall_ = 0, in_runs_ = 0, cpu_ = 0;
-  std::chrono::steady_clock::time_point shown_{}, begun_{};
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now(), shown_ = begun_;
 };
 
 }  // namespace tunica::shell

@@ -60,6 +60,29 @@ wait $process
 says err.txt "the same command goes on"
 [ "$(table stopped.db | wc -l)" -gt 3 ] || wrong "Ctrl-C lost the runs"
 
+# --- A search: the same steps, whatever the number of processes and however often it is killed.
+search=("$tunica" sweep model.lua a=0..5 b=.5..3 --refine 40 --seeds 1..2 --score "-(mean - 1)^2 - (a - 2)^2" -q)
+code 0 "${search[@]}" --random 6 --out search1.db --jobs 1
+for i in 1 2 3 4 5 6 7 8; do
+  "${search[@]}" --random 6 --out search2.db --jobs 3 &
+  process=$!
+  sleep "0.$((2 + RANDOM % 3))"
+  kill -9 $process 2>/dev/null
+  wait $process 2>/dev/null && break
+done
+code 0 "${search[@]}" --random 6 --out search2.db --jobs 2
+table search1.db >search1.csv
+table search2.db >search2.csv
+same search1.csv search2.csv
+[ "$(wc -l <search1.csv)" -gt 100 ] || wrong "a search of 46 samples has too few rows"
+code 2 "${search[@]}" --random 6 --out search2.db --step 0.1
+says err.txt "step is 0.1 now, and was 0.2 there"
+code 2 "${search[@]}" --out search2.db --random 7
+says err.txt "refined from 6 samples"
+# Better than the samples it began with.
+code 0 "$tunica" sweep show search1.db --best 1
+[ "$(grep -A1 '^sample' out.txt | tail -1 | awk '{ print $1 }')" -gt 6 ] || { wrong "the search found nothing better"; cat out.txt; }
+
 # --- A run of a sweep is a run by itself.
 line=$("$tunica" sweep show one.db --sample 7 | grep -m1 "tunica model.lua")
 hash=$("$tunica" sweep show one.db --sample 7 | grep -m1 hash | sed 's/.*= //')
@@ -94,6 +117,9 @@ refused "needs the number of steps" a=0..5 --grid
 refused "no parameter varies" a=1 --random 3
 refused "is among --seeds" a=0..5 --random 3 --score mean --seeds 1..4 --fresh-seeds 4..6
 refused "--seeds: 4..1 is reversed" a=0..5 --random 3 --seeds 4..1
+refused "--refine needs --score" a=0..5 --refine 10
+refused "run the shards first" a=0..5 --refine 10 --score mean --shard 1/2
+refused "moves within ranges" a=1,2 --refine 10 --score mean
 refused "how are the ranges to be sampled" a=0..5
 code 0 sweep a=0..5 --random 3 --score word --out word.db
 says err.txt "the score is no number but the text 'good'"
