@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <thread>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -66,7 +67,13 @@ void say_how_it_went(const SweepWork& work, const SweepOptions& options) {
 /// Opens the file, which belongs to this process alone from now on. Errors: UsageError.
 std::unique_ptr<sweep::Table> open_table(const std::string& path) {
   try {
-    if (!lock_file(path + ".lock")) throw UsageError{fmt::format("'{}' is in use: another sweep writes to it", path)};
+    // A process that was killed a moment ago may still be going.
+    bool free = lock_file(path + ".lock");
+    for (int i = 0; i < 20 && !free; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      free = lock_file(path + ".lock");
+    }
+    if (!free) throw UsageError{fmt::format("'{}' is in use: another sweep writes to it", path)};
     return std::make_unique<sweep::Table>(path, sweep::Table::Mode::write);
   } catch (const Error& error) {
     throw UsageError{error.what()};
