@@ -4,6 +4,7 @@
 local core = require "tunica.core"
 local registry = require "tunica.registry"
 local warnings = require "tunica.warnings"
+local curve_text = require "tunica.curve_text"
 local op, fail = registry.op, registry.fail
 
 local function is(kind)
@@ -29,15 +30,28 @@ local function options_of(what, given, options)
   end
 end
 
+--- What texts (names, files, points) have been used for: text -> "contour", "curve" or "profile". An editor of a parameter
+-- that holds such a text can then tell what is wanted.
+local uses = {}
+
 local function make_contour(given, item)
-  if type(given) == "string" then return (core.load_contour(given, item)) end
+  if type(given) == "string" then
+    uses[given] = uses[given] == "profile" and "profile" or "contour"
+    if not curve_text.is(given) then return (core.load_contour(given, item)) end
+    given = curve_text.read(given, "tunica.contour")
+  end
   if item then fail("tunica.contour: 'item' belongs to a file with several contours, not to points") end
   options_of("tunica.contour", given, { "degree", "ends", "name" })
   return (core.new_contour(given, given.degree, given.ends, given.name))
 end
 
 local function make_curve(given, item)
-  if type(given) == "string" then return (core.load_curve(given, item)) end
+  if type(given) == "string" then
+    uses[given] = "curve"
+    if not curve_text.is(given) then return (core.load_curve(given, item)) end
+    given = curve_text.read(given, "tunica.curve")
+    if given.ends then fail "tunica.curve: 'ends' belongs to a contour; a function has both its ends" end
+  end
   if item then fail("tunica.curve: 'item' belongs to a file with several curves, not to points") end
   options_of("tunica.curve", given, { "degree", "name" })
   return (core.new_curve(given, given.degree, given.name))
@@ -49,7 +63,7 @@ local function example(text) return 'local tunica = require "tunica"\n' .. text 
 op { name = "tunica.contour", returns = "a contour", source = "thesis 3.3",
   args = { { name = "points", type = "list|string", required = true, doc = "control points { { x, y }, ... }, with " ..
     "degree = (3, or what the points allow), ends = 'clamped' (default), 'open' or 'closed', name = ; or the name of a " ..
-    "shipped contour, or a file of L-Studio (.con), relative to the script" }, item },
+    "shipped contour, a file of L-Studio (.con) relative to the script, or points as text: '0,1 1,1 1,-3 degree=2'" }, item },
   doc = "A curve in the plane, drawn as a B-spline: the profile of an apex, the outline of a leaf. A clamped one starts in " ..
     "its first point and ends in its last; an open one does so where these are given three times. A contour never changes.",
   fn = make_contour,
@@ -61,7 +75,7 @@ print(tunica.contour { { 0, 0 }, { 1, 0 }, { 1, -3 }, degree = 2 })]] }
 op { name = "tunica.curve", returns = "a curve; f(x) is its value", source = "thesis 3.3",
   args = { { name = "points", type = "list|string", required = true, doc = "points { { x, y }, ... } whose x never " ..
     "decreases, with degree = (3, or what the points allow; 1: straight from point to point), name = ; or the name of a " ..
-    "shipped curve, or a file of L-Studio (.func), relative to the script" }, item },
+    "shipped curve, a file of L-Studio (.func) relative to the script, or points as text: '0,0.3 0.5,1 2,1'" }, item },
   doc = "A function of one variable, drawn as a clamped B-spline, as growth along a profile or a threshold in time. Outside " ..
     "its points the values of its ends hold. A curve never changes. In rules and fields those of degree 1 are traced.",
   fn = make_curve,
@@ -122,6 +136,12 @@ op { name = "contour:reversed", returns = "a contour",
   fn = function(self) return (core.contour_changed(self, 1, true)) end,
   example = example(contour .. "print(contour:reversed():at(0))") }
 local file = { name = "file", type = "string", required = true, doc = "its path" }
+op { name = "contour:text", returns = "a text", example = example(contour .. "print(contour:text())"),
+  doc = "The points as text, as tunica.contour reads them: to stand in a parameter or on the command line.",
+  fn = function(self)
+    local points, degree, ends = core.contour_points(self)
+    return curve_text.write(points, degree, ends)
+  end }
 op { name = "contour:save", args = { file }, fn = function(self, path) core.save_contour(self, path) end,
   doc = "Writes the contour as a file of L-Studio (.con). Such files hold cubic curves: straight lines and single arcs " ..
     "of lower degree become the cubic that is the same." }
@@ -140,6 +160,12 @@ op { name = "curve:integral", returns = "a number",
   example = example(curve .. "print(f:integral(0, 1))") }
 op { name = "curve:points", doc = "What the curve was drawn from.", returns = "a list of { x, y }, the degree, and the name",
   fn = core.curve_points, example = example(curve .. "print(#f:points())") }
+op { name = "curve:text", returns = "a text", example = example(curve .. "print(f:text())"),
+  doc = "The points as text, as tunica.curve reads them: to stand in a parameter or on the command line.",
+  fn = function(self)
+    local points, degree = core.curve_points(self)
+    return curve_text.write(points, degree)
+  end }
 op { name = "curve:save", args = { file }, fn = function(self, path) core.save_curve(self, path) end,
   doc = "Writes the curve as a file of L-Studio (.func)." }
 
@@ -157,6 +183,7 @@ op { name = "tunica.apex", kind = "named", returns = "an apex", source = "thesis
     "a; theta stays, and so does the form of the surface. Beyond its end the profile goes straight on. An apex never changes.",
   fn = function(t)
     local profile, growth = t.profile, t.growth
+    if type(profile) == "string" then uses[profile] = "profile" end
     if core.shape_kind(profile) ~= "contour" then profile = make_contour(profile) end
     if type(growth) == "string" or type(growth) == "table" then growth = make_curve(growth) end
     local apex, least, place = core.new_apex(profile, growth)
@@ -205,3 +232,5 @@ number("arc_at_radius", core.apex_arc_at_radius, "The first arc length at which 
   { { name = "radius", type = "number", required = true, min = 0, unit = "length", doc = "distance from the axis" } })
 number("after", core.apex_after, "Where along the profile a point is after some time; before it, if the time is negative.",
   { a, { name = "dt", type = "number", required = true, unit = "time", doc = "time" } })
+
+return { uses = uses, contour = make_contour, curve = make_curve }

@@ -853,6 +853,10 @@ function contour:scaled(factor) end
 ---@return tunica.contour # a contour
 function contour:reversed() end
 
+---The points as text, as tunica.contour reads them: to stand in a parameter or on the command line.
+---@return any # a text
+function contour:text() end
+
 ---Writes the contour as a file of L-Studio (.con). Such files hold cubic curves: straight lines and single arcs of lower degree become the cubic that is the same.
 ---@param file string its path (text; needed)
 function contour:save(file) end
@@ -875,6 +879,10 @@ function curve:integral(from, to) end
 ---What the curve was drawn from.
 ---@return table # a list of { x, y }, the degree, and the name
 function curve:points() end
+
+---The points as text, as tunica.curve reads them: to stand in a parameter or on the command line.
+---@return any # a text
+function curve:text() end
 
 ---Writes the curve as a file of L-Studio (.func).
 ---@param file string its path (text; needed)
@@ -1106,7 +1114,7 @@ function tunica.clamp(x, low, high) end
 ---A curve in the plane, drawn as a B-spline: the profile of an apex, the outline of a leaf. A clamped one starts in its first point and ends in its last; an open one does so where these are given three times. A contour never changes.
 ---
 ---Source: thesis 3.3
----@param points any[]|string control points { { x, y }, ... }, with degree = (3, or what the points allow), ends = 'clamped' (default), 'open' or 'closed', name = ; or the name of a shipped contour, or a file of L-Studio (.con), relative to the script (list of items, or text; needed)
+---@param points any[]|string control points { { x, y }, ... }, with degree = (3, or what the points allow), ends = 'clamped' (default), 'open' or 'closed', name = ; or the name of a shipped contour, a file of L-Studio (.con) relative to the script, or points as text: '0,1 1,1 1,-3 degree=2' (list of items, or text; needed)
 ---@param item? string which of the curves of a gallery (.fset, .tset, .cset) (text)
 ---@return tunica.contour # a contour
 function tunica.contour(points, item) end
@@ -1119,7 +1127,7 @@ function tunica.cos(x) end
 ---A function of one variable, drawn as a clamped B-spline, as growth along a profile or a threshold in time. Outside its points the values of its ends hold. A curve never changes. In rules and fields those of degree 1 are traced.
 ---
 ---Source: thesis 3.3
----@param points any[]|string points { { x, y }, ... } whose x never decreases, with degree = (3, or what the points allow; 1: straight from point to point), name = ; or the name of a shipped curve, or a file of L-Studio (.func), relative to the script (list of items, or text; needed)
+---@param points any[]|string points { { x, y }, ... } whose x never decreases, with degree = (3, or what the points allow; 1: straight from point to point), name = ; or the name of a shipped curve, a file of L-Studio (.func) relative to the script, or points as text: '0,0.3 0.5,1 2,1' (list of items, or text; needed)
 ---@param item? string which of the curves of a gallery (.fset, .tset, .cset) (text)
 ---@return tunica.curve # a curve; f(x) is its value
 function tunica.curve(points, item) end

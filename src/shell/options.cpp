@@ -26,6 +26,7 @@ Commands:
   tunica chart MODEL           the error of every method against its time, and which to take
   tunica stability MODEL       the largest step of every method
   tunica sweep MODEL ...       many runs: samples, a score, a search (tunica sweep --help)
+  tunica curve FILE            draw a curve (.func, .con) in the terminal, or a new one
 
 Exit codes: 0 done, 1 error in the script, 2 command line, 3 numerical failure, 4 files cannot be written,
   75 stopped by SIGUSR1 with a checkpoint, 129 hung up, 130 interrupted, 143 terminated.
@@ -161,6 +162,13 @@ std::optional<Options> read_options(int argc, char** argv) {
     if (!parse_arguments(app, argc - 1, argv + 1)) return std::nullopt;
     check(options);
     return options;
+  }
+  if (first == "curve") {
+    options.command = Options::Command::curve;
+    app.add_option("file", options.script, "file of a curve (.func, .con), new or not; or name of a shipped one")
+        ->type_name("FILE")
+        ->required();
+    return parse_arguments(app, argc - 1, argv + 1) ? std::optional(options) : std::nullopt;
   }
   add_run_options(app, options);
   if (first == "resume" || first == "rerun") {

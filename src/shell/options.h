@@ -14,7 +14,7 @@ namespace tunica::shell {
 
 /// What the command line asks for.
 struct Options {
-  enum class Command { script, models, resume, rerun, chart, stability, version };
+  enum class Command { script, models, resume, rerun, chart, stability, curve, version };
   Command command = Command::script;
   std::string script;                  ///< path, name of a shipped model, "-" (standard input), or ""
   std::vector<std::string> arguments;  ///< after the script: key=value for a model, anything for a plain script

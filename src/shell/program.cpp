@@ -17,6 +17,7 @@
 #include "shell/options.h"
 #include "shell/places.h"
 #include "shell/prompt.h"
+#include "shell/screen.h"
 #include "shell/sweep.h"
 #include "shell/terminal.h"
 #include "shell/version.h"
@@ -138,6 +139,20 @@ int run_study(const Options& options) {
   return run_batch(session, options, script, stem_of(options.script));
 }
 
+/// tunica curve: the editor alone.
+int edit_curve(const Options& options) {
+  Session session(1);
+  tell_screen(session);
+  lua_State* L = session.lua();
+  lua_getglobal(L, "require");
+  lua_pushliteral(L, "tunica.prompt.edit_curve");
+  if (!session.call(1, 1)) return session.exit_code();
+  lua_getfield(L, -1, "edit_file");
+  lua_pushlstring(L, options.script.data(), options.script.size());
+  session.call(1, 0);
+  return session.interrupts().signal() ? session.code_of_stop() : session.exit_code();
+}
+
 int run_recorded(Options& options) {
   Record record;
   try {
@@ -170,6 +185,8 @@ int run_command(Options& options) {
     case Options::Command::chart:
     case Options::Command::stability:
       return run_study(options);
+    case Options::Command::curve:
+      return edit_curve(options);
     case Options::Command::script:
       break;
   }

@@ -2,13 +2,9 @@
 #include "shell/prompt.h"
 
 #include <fmt/format.h>
-#include <langinfo.h>
 #include <unistd.h>
 
-#include <clocale>
 #include <csignal>
-#include <cstdlib>
-#include <cstring>
 #include <iostream>
 #include <memory>
 
@@ -16,31 +12,13 @@
 #include "shell/exit_codes.h"
 #include "shell/prompt_editor.h"
 #include "shell/prompt_history.h"
+#include "shell/screen.h"
 #include "shell/terminal.h"
 #include "shell/version.h"
 
 namespace tunica::shell {
 
 namespace {
-
-int width_of_terminal(lua_State* L) {
-  lua_pushinteger(L, terminal_width());
-  return 1;
-}
-
-/// Whether the terminal shows more than ASCII. Without any setting of a locale it is taken to be UTF-8.
-bool choose_characters() {
-  const char* chosen = setlocale(LC_CTYPE, "");
-  if (!chosen || std::strcmp(chosen, "C") == 0) {
-    const auto given = [](const char* name) {
-      const char* value = std::getenv(name);
-      return value && *value;
-    };
-    if (!given("LC_ALL") && !given("LC_CTYPE") && !given("LANG")) setlocale(LC_CTYPE, "C.UTF-8");
-  }
-  const char* terminal = std::getenv("TERM");
-  return std::strcmp(nl_langinfo(CODESET), "UTF-8") == 0 && !(terminal && std::strcmp(terminal, "dumb") == 0);
-}
 
 /// The conversation, whose Lua half is lua/tunica/prompt/session.lua.
 class Prompt {
@@ -52,7 +30,6 @@ class Prompt {
   enum class Turn { done, failed, more, leave };
 
   bool open();
-  void set_screen();
   void call_session(const char* function);
   Completions complete(const std::string& line, size_t cursor);
   std::optional<std::string> read_line(const char* prompt);
@@ -76,24 +53,6 @@ Prompt::Prompt(Session& session, const PromptOptions& options) : session_(sessio
                                      [this] { return session_.interrupts().signal() != 0; });
 }
 
-/// require "tunica.prompt.screen" gets what the terminal can do.
-void Prompt::set_screen() {
-  lua_State* L = session_.lua();
-  lua_getglobal(L, "require");
-  lua_pushliteral(L, "tunica.prompt.screen");
-  if (!session_.call(1, 1)) return;
-  const bool unicode = choose_characters();
-  lua_pushboolean(L, isatty(STDOUT_FILENO) && error_is_terminal());
-  lua_setfield(L, -2, "terminal");
-  lua_pushboolean(L, in_colour(STDOUT_FILENO));
-  lua_setfield(L, -2, "colour");
-  lua_pushboolean(L, unicode);
-  lua_setfield(L, -2, "unicode");
-  lua_pushcfunction(L, width_of_terminal);
-  lua_setfield(L, -2, "width");
-  lua_pop(L, 1);
-}
-
 /// Pushes a function of the Lua half.
 void Prompt::call_session(const char* function) {
   lua_State* L = session_.lua();
@@ -104,7 +63,7 @@ void Prompt::call_session(const char* function) {
 
 bool Prompt::open() {
   lua_State* L = session_.lua();
-  set_screen();
+  tell_screen(session_);
   lua_getglobal(L, "require");
   lua_pushliteral(L, "tunica.prompt.session");
   if (!session_.call(1, 1)) return false;

@@ -23,6 +23,7 @@ volatile std::sig_atomic_t waiting_at_prompt = 0;
 volatile std::sig_atomic_t goes_on = 0;  // a prompt
 volatile std::sig_atomic_t presses = 0;  // since the last calm
 volatile std::sig_atomic_t alarms = 0;
+void (*volatile put_back_first)() = nullptr;
 
 constexpr std::array stopping = {SIGINT, SIGTERM, SIGHUP, SIGUSR1};
 struct sigaction before[stopping.size()], before_alarm;
@@ -63,6 +64,7 @@ void on_signal(int number) {
     return;
   }
   if (pending) {
+    if (put_back_first) put_back_first();
     say("\nstopped at once by a second signal\n");
     _exit(128 + number);
   }
@@ -113,5 +115,7 @@ void Interrupts::calm(bool forget) {
 void Interrupts::interactive(bool on) { goes_on = on; }
 
 void Interrupts::at_prompt(bool waiting) { waiting_at_prompt = waiting; }
+
+void at_abrupt_end(void (*put_back)()) { put_back_first = put_back; }
 
 }  // namespace tunica::shell

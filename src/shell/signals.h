@@ -31,4 +31,8 @@ class Interrupts {
   void interactive(bool on);
 };
 
+/// What is to be done before a signal ends the program at once; it may only do what a signal handler may. None:
+/// nothing.
+void at_abrupt_end(void (*put_back)());
+
 }  // namespace tunica::shell

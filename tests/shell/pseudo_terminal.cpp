@@ -10,11 +10,13 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <utility>
 
 namespace tunica::shell {
 
 namespace {
 
+constexpr size_t height = 40;
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -46,19 +48,80 @@ void Screen::put(const std::string& character) {
   auto& line = row();
   if (line.size() <= x_) line.resize(x_ + 1, " ");
   line[x_++] = character;
+  last_ = character;
+}
+
+void Screen::scroll(size_t from, long count) {
+  if (lines_.size() < bottom_) lines_.resize(bottom_);
+  for (; count > 0; --count) {
+    lines_.erase(lines_.begin() + static_cast<long>(from));
+    lines_.insert(lines_.begin() + static_cast<long>(bottom_) - 1, std::vector<std::string>());
+  }
+  for (; count < 0; ++count) {
+    lines_.erase(lines_.begin() + static_cast<long>(bottom_) - 1);
+    lines_.insert(lines_.begin() + static_cast<long>(from), std::vector<std::string>());
+  }
+}
+
+void Screen::mode(const std::string& parameters, bool on) {
+  if (parameters != "?1049" || on == alternate_) return;
+  alternate_ = on;
+  if (on) {
+    normal_lines_ = std::exchange(lines_, std::vector<std::vector<std::string>>(1));
+    normal_y_ = std::exchange(y_, 0);
+    normal_x_ = std::exchange(x_, 0);
+  } else {
+    lines_ = std::move(normal_lines_);
+    y_ = normal_y_;
+    x_ = normal_x_;
+  }
 }
 
 void Screen::sequence(const std::string& parameters, char final) {
+  if (final == 'h' || final == 'l') return mode(parameters, final == 'h');
   auto& line = row();
   const size_t count = number(parameters, 1);
   switch (final) {
+    case 'H': {
+      const size_t semicolon = parameters.find(';');
+      y_ = std::max<size_t>(1, number(parameters.substr(0, semicolon), 1)) - 1;
+      x_ = semicolon == std::string::npos ? 0 : std::max<size_t>(1, number(parameters.substr(semicolon + 1), 1)) - 1;
+      break;
+    }
+    case 'd':
+      y_ = count - 1;
+      break;
+    case 'b':
+      for (size_t i = 0; i < count; ++i) put(std::string(last_));
+      break;
+    case 'L':
+      scroll(y_, -static_cast<long>(count));
+      break;
+    case 'M':
+      scroll(y_, static_cast<long>(count));
+      break;
+    case 'r': {
+      const size_t semicolon = parameters.find(';');
+      top_ = number(parameters.substr(0, semicolon), 1) - 1;
+      bottom_ = semicolon == std::string::npos ? height : number(parameters.substr(semicolon + 1), height);
+      y_ = x_ = 0;
+      break;
+    }
+    case 'X':
+      for (size_t i = x_; i < std::min(line.size(), x_ + count); ++i) line[i] = " ";
+      break;
     case 'm':
       coloured_ = coloured_ || !(parameters.empty() || parameters == "0");
       break;
     case 'K':
       if (parameters.empty() || parameters == "0") line.resize(std::min(line.size(), x_));
+      if (parameters == "1") std::fill_n(line.begin(), std::min(line.size(), x_ + 1), " ");
       break;
     case 'J':
+      if (parameters == "2") {
+        lines_.clear();
+        break;
+      }
       line.resize(std::min(line.size(), x_));
       lines_.resize(y_ + 1);
       break;
@@ -97,7 +160,11 @@ void Screen::write(const std::string& more) {
     const auto c = static_cast<unsigned char>(bytes[i]);
     if (c == '\033') {
       if (i + 1 < bytes.size() && bytes[i + 1] != '[') {
-        i += 2;
+        if (bytes[i + 1] == 'M' && alternate_ && y_ == top_)
+          scroll(top_, -1);
+        else if (bytes[i + 1] == 'M')
+          y_ -= std::min<size_t>(y_, 1);
+        i += bytes[i + 1] == '(' || bytes[i + 1] == ')' ? 3 : 2;
         continue;
       }
       const size_t end = bytes.find_first_not_of("0123456789;?<=>", i + 2);
@@ -111,6 +178,8 @@ void Screen::write(const std::string& more) {
     }
     if (c == '\r') {
       x_ = 0;
+    } else if (c == '\n' && alternate_ && y_ + 1 == bottom_) {
+      scroll(top_, 1);
     } else if (c == '\n') {
       ++y_;
       row();
@@ -153,7 +222,7 @@ PseudoTerminal::PseudoTerminal(const std::vector<std::string>& command,
     : screen_(width) {
   winsize size{};
   size.ws_col = static_cast<unsigned short>(width);
-  size.ws_row = 40;
+  size.ws_row = height;
   process_ = forkpty(&terminal_, nullptr, nullptr, &size);
   if (process_ != 0) return;
   for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
@@ -200,6 +269,24 @@ bool PseudoTerminal::shows(const std::string& text, double seconds) {
   }
 }
 
+bool PseudoTerminal::displays(const std::string& text, double seconds) {
+  const auto start = Clock::now();
+  while (screen_.text().find(text) == std::string::npos) {
+    if (seconds_since(start) > seconds) return false;
+    read_some(0.05);
+  }
+  return true;
+}
+
+bool PseudoTerminal::hides(const std::string& text, double seconds) {
+  const auto start = Clock::now();
+  while (screen_.text().find(text) != std::string::npos) {
+    if (seconds_since(start) > seconds) return false;
+    read_some(0.05);
+  }
+  return true;
+}
+
 bool PseudoTerminal::stands_at(const std::string& line, double seconds) {
   const auto start = Clock::now();
   while (screen_.line() != line || static_cast<long>(screen_.row_number()) <= row_) {
@@ -228,7 +315,8 @@ int PseudoTerminal::exit_code(double seconds) {
 void PseudoTerminal::resize(int width) {
   winsize size{};
   size.ws_col = static_cast<unsigned short>(width);
-  size.ws_row = 40;
+  size.ws_row = height;
+  screen_.set_width(width);
   ioctl(terminal_, TIOCSWINSZ, &size);
 }
 

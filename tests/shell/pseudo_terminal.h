@@ -21,19 +21,29 @@ class Screen {
   size_t row_start() const;
   /// The line of the cursor.
   std::string line() const;
+  /// Lines from now on have this width.
+  void set_width(int width) { width_ = width; }
+  /// Whether the alternate screen is shown, of which `text` then tells.
+  bool alternate() const { return alternate_; }
   /// Whether a colour was asked for.
   bool coloured() const { return coloured_; }
 
  private:
   void put(const std::string& character);
   void sequence(const std::string& parameters, char final);
+  void scroll(size_t from, long count);
+  void mode(const std::string& parameters, bool on);
   std::vector<std::string>& row();
 
   int width_;
   size_t y_ = 0, x_ = 0;
   std::vector<std::vector<std::string>> lines_;  // of characters
   std::string unfinished_;
-  bool coloured_ = false;
+  std::vector<std::vector<std::string>> normal_lines_;  // while the alternate screen is shown
+  size_t top_ = 0, bottom_ = 40;  // of what scrolls on the alternate screen; the line behind its last
+  size_t normal_y_ = 0, normal_x_ = 0;
+  bool coloured_ = false, alternate_ = false;
+  std::string last_ = " ";
 };
 
 /// Starts a program on a terminal of its own, and ends it.
@@ -47,6 +57,10 @@ class PseudoTerminal {
   void type(const std::string& keys);
   /// Waits until the screen's text holds `text`, from the line on in which keys were typed last; false after `seconds`.
   bool shows(const std::string& text, double seconds = 20);
+  /// The same, anywhere on the screen.
+  bool displays(const std::string& text, double seconds = 20);
+  /// Waits until the text is nowhere on the screen.
+  bool hides(const std::string& text, double seconds = 20);
   /// Waits until the cursor stands on a line that is exactly `line`, below that in which keys were typed last.
   bool stands_at(const std::string& line, double seconds = 20);
   /// Reads what comes for some time.

@@ -292,6 +292,15 @@ local function in_string(text, start, open)
     for _, each in ipairs(files(prefix)) do list[#list + 1] = each end
     return list
   end
+  if chain == "edit_curve" then
+    local list = {}
+    for name, text in pairs(require("tunica.prompt.edit_curve").parameters()) do
+      add(list, prefix, name, text:sub(1, 60))
+    end
+    table.sort(list, function(a, b) return a.name < b.name end)
+    for _, each in ipairs(files(prefix)) do list[#list + 1] = each end
+    return list
+  end
   if chain and with_columns[chain] and tissue_of(nil) then
     return columns(tissue_of(nil), prefix, { "cell", "side", "wall", "junction" })
   end

@@ -1,10 +1,9 @@
 -- SPDX-License-Identifier: MIT
 --- Numbers against numbers in characters: dots of Braille (two by four in a character), or stars where there is no Unicode.
 
+local canvas = require "tunica.prompt.canvas"
 local screen = require "tunica.prompt.screen"
 local values = require "tunica.prompt.values"
-
-local bits = { { 1, 2, 4, 64 }, { 8, 16, 32, 128 } }  -- of a Braille character, by column and row
 
 local function is_finite(x) return type(x) == "number" and x == x and math.abs(x) < math.huge end
 
@@ -24,44 +23,13 @@ local function range_of(series, axis)
   return low, high
 end
 
---- The three bytes of a character from U+0800 on.
-local function utf8_of(code)
-  return string.char(224 + math.floor(code / 4096), 128 + math.floor(code / 64) % 64, 128 + code % 64)
-end
-
-local function canvas(width, height)
-  local across, down = screen.unicode and 2 or 1, screen.unicode and 4 or 1
-  local cells = {}
-  local self = { across = across * width, down = down * height }
-  function self.set(px, py)
-    if px < 0 or py < 0 or px >= self.across or py >= self.down then return end
-    local at = math.floor(py / down) * width + math.floor(px / across)
-    local bit_value = screen.unicode and bits[px % across + 1][py % down + 1] or 1
-    cells[at] = bit.bor(cells[at] or 0, bit_value)
-  end
-  function self.row(r)
-    local out = {}
-    for c = 0, width - 1 do
-      local set = cells[r * width + c]
-      out[#out + 1] = not set and " " or screen.unicode and utf8_of(0x2800 + set) or "*"
-    end
-    return table.concat(out)
-  end
-  return self
-end
-
-local function draw_line(to, x0, y0, x1, y1)
-  local steps = math.max(math.abs(x1 - x0), math.abs(y1 - y0), 1)
-  for i = 0, steps do to.set(math.floor(x0 + (x1 - x0) * i / steps + 0.5), math.floor(y0 + (y1 - y0) * i / steps + 0.5)) end
-end
-
 local function draw(to, each, place, lines)
   local before
   for i, y in ipairs(each.y) do
     local x = each.x and each.x[i] or i
     if is_finite(x) and is_finite(y) then
       local px, py = place(x, y)
-      if lines and before then draw_line(to, before[1], before[2], px, py) else to.set(px, py) end
+      if lines and before then canvas.line(to, before[1], before[2], px, py) else to.set(px, py) end
       before = { px, py }
     else
       before = nil
@@ -77,7 +45,7 @@ return function(series, options)
   local labels = { values.short(high), values.short(low) }
   local margin = math.max(#labels[1], #labels[2])
   local width, height = math.max(10, math.min(100, screen.width()) - margin - 3), 12
-  local to = canvas(width, height)
+  local to = canvas.new(width, height)
   local function place(x, y)
     local across, down = (x - left) / (right - left) * (to.across - 1), (high - y) / (high - low) * (to.down - 1)
     return math.floor(across + 0.5), math.floor(down + 0.5)

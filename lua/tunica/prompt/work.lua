@@ -15,6 +15,7 @@ local op, fail = registry.op, registry.fail
 local function say(...) desk.say(...) end
 
 require "tunica.prompt.keep"
+require "tunica.prompt.edit_curve"
 
 local loaded = 'load "patterning/ring"\n'
 
@@ -47,17 +48,24 @@ op { name = "prompt.load", kind = "named", rest = { type = "number|string|boolea
     describe(model, source)
   end }
 
---- Reads the script again. Returns what is worth saying.
-local function reload()
+--- Reads the script again. `changes`: parameters, name -> value, that it is to see from now on, as if they had been given on
+-- loading; `what`: for undo. Returns what is worth saying.
+function desk.reload(changes, what)
   local model, source = desk.need_model "reload", desk.source
   if not source then
     fail "reload: this model was typed here; load one from a file (transcript \"file\" writes what was typed)"
   end
-  local changed = script.changed(source)
-  history.keep("reload", true)
+  local changed, overrides = script.changed(source), {}
+  for _, list in ipairs { source.overrides or {}, changes or {} } do
+    for name, value in pairs(list) do overrides[name] = value end
+  end
+  history.keep(what or "reload", true)
   local fresh, now = desk.run { path = source.path, name = source.name, shipped = source.shipped,
-    overrides = source.overrides, use = source.built }
-  local notes = carry.over(model, fresh, changed ~= nil)
+    overrides = overrides, use = source.built }
+  if changes and model.params then  -- so that a value set by hand gives way, too
+    for name in pairs(changes) do model.params[name] = desk.begun(model).script.params[name] end
+  end
+  local notes = carry.over(model, fresh, changed ~= nil or changes ~= nil)
   local old_tissue, g = desk.inside(model).tissue, desk.globals
   local handles = {}
   for name, value in next, g do
@@ -72,7 +80,7 @@ local function reload()
 end
 
 local function say_reloaded()
-  local notes, changed = reload()
+  local notes, changed = desk.reload()
   say("%s %s; the state at t = %.6g is kept", desk.source.path, changed and "read again" or "has not changed", desk.model().time)
   for _, note in ipairs(notes) do say("  %s", note) end
 end
@@ -247,7 +255,8 @@ op { name = "prompt.who", doc = "Lists the variables that you, or a model, have 
   end }
 
 local names = {}
-for _, name in ipairs { "load", "reload", "watch", "edit", "set", "undo", "redo", "who", "save", "restore", "transcript" } do
+for _, name in ipairs { "load", "reload", "watch", "edit", "edit_curve", "set", "undo", "redo", "who", "save", "restore",
+  "transcript" } do
   names[name] = registry.prompt[name]
 end
 return names
