@@ -62,8 +62,11 @@ int merge_sweeps(const SweepOptions& options) try {
     if (here)
       if (const std::string what = difference(*here, *there); !what.empty())
         throw UsageError{fmt::format("'{}' is of another sweep than '{}': {}", part.path(), out, what)};
-    for (const char* name : {"identity", "model", "script", "about", "settings"})
+    for (const char* name : {"identity", "model", "script", "build", "about", "settings"})
       if (const auto text = part.note(name); text && !here) whole.set_note(name, *text);
+    auto settings = nlohmann::json::parse(*whole.note("settings"));
+    settings["shard"] = settings["shards"] = 1;
+    whole.set_note("settings", settings.dump());
     const size_t taken = take_over(whole, part);
     whole.commit();
     fmt::print("{}: {} runs\n", part.path(), taken);

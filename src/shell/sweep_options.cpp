@@ -120,7 +120,7 @@ void add_search(CLI::App& app, SweepOptions& options) {
 
 void add_engine(CLI::App& app, SweepOptions& options) {
   app.add_option("--out", options.out, "the SQLite file (default MODEL.db); goes on if it is there")->type_name("FILE");
-  app.add_option("--jobs,-j", options.jobs, "processes (default: cores)")->type_name("N")->check(CLI::Range(1, 4096));
+  app.add_option("--jobs,-j", options.jobs, "processes (default: cores)")->type_name("N")->check(CLI::Range(1, 400));
   app.add_option("--time-limit", options.time_limit, "seconds that a run may take (default 3600)")->type_name("S");
   app.add_option("--memory", options.memory, "megabytes that a run may use (default: 0.8 of the machine / jobs)")
       ->type_name("MB");
@@ -140,8 +140,7 @@ void add_show(CLI::App& app, SweepOptions& options) {
   app.add_flag("--failures", options.failures, "runs that failed, and why");
   app.add_flag("--csv", options.csv, "every run as a row of text separated by commas");
   app.add_option("--plot", options.plot, "one value against another")->type_name("X Y")->expected(2);
-  app.add_option("--png", options.png, "the plot's file, .png or .svg (default: NAME.png beside the sweep)")
-      ->type_name("FILE");
+  app.add_option("--png", options.png, "draw the plot into this file, .png or .svg")->type_name("FILE");
   app.add_option("--sample", options.row, "everything about one sample")->type_name("N");
 }
 

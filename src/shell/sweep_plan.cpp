@@ -2,9 +2,14 @@
 #include "shell/sweep_plan.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "base/bytes.h"
 #include "base/error.h"
+#include "base/files.h"
+#include "shell/places.h"
+#include "shell/terminal.h"
 #include "shell/version.h"
 
 namespace tunica::shell {
@@ -41,6 +46,17 @@ std::string all_ranges(const json& ranges) {
   std::vector<std::string> parts;
   for (const auto& range : ranges) parts.push_back(name_and_text(range));
   return fmt::format("{}", fmt::join(parts, " "));
+}
+
+/// A fingerprint of the program and of the Lua half of its library. Versions say less: they rarely change.
+std::string build_of_program() {
+  std::string all = hash(read_file("/proc/self/exe"));
+  std::vector<std::string> paths;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(library_folder()))
+    if (entry.path().extension() == ".lua") paths.push_back(entry.path().string());
+  std::sort(paths.begin(), paths.end());
+  for (const auto& path : paths) all += hash(read_file(path));
+  return hash(all);
 }
 
 std::string as_text(const json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
@@ -92,7 +108,6 @@ SweepPlan make_plan(SweepModel& model, const SweepOptions& options) {
                               "--random N, --sobol N or --refine N"};
   // The model's reports may depend on what is fixed; and what is wrong with these values is said before anything is
   // run.
-  const std::string hash = plan.about.hash;
   if (!fixed.empty()) plan.about = model.describe(fixed, options.until);
   return plan;
 }
@@ -110,7 +125,7 @@ std::string difference(const std::string& there_text, const std::string& here_te
 }
 
 void settle_plan(sweep::Table& table, const SweepModel& model, const SweepOptions& options, const SweepPlan& plan) {
-  const std::string identity = identity_of(options, plan).dump();
+  const std::string identity = identity_of(options, plan).dump(), build = build_of_program();
   if (const auto there = table.note("identity")) {
     if (const std::string what = difference(*there, identity); !what.empty())
       throw UsageError{fmt::format("'{}' holds another sweep: {}; choose another --out", table.path(), what)};
@@ -118,8 +133,12 @@ void settle_plan(sweep::Table& table, const SweepModel& model, const SweepOption
     table.set_note("identity", identity);
     table.set_note("model", model.given());
     table.set_note("script", model.script().text);
+    table.set_note("build", build);
     table.set_note("about", plan.about.json);
   }
+  if (table.note("build") != build && !options.quiet)
+    say_warning(
+        fmt::format("the program or its library has changed since '{}' was begun: results may differ", table.path()));
   settle_samples(table, options, plan);
   const std::string settings = settings_of(options).dump();
   if (table.note("settings") != settings) table.set_note("settings", settings);

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <set>
 
 #include "base/error.h"
@@ -182,7 +181,7 @@ Fields fields_of(const SweepView& view, const sweep::SampleRow& sample, const sw
   for (const auto& [name, value] : view.values(sample)) fields[name] = value;
   fields["sample"] = std::to_string(run.sample);
   fields["seed"] = std::to_string(run.seed);
-  fields["fresh"] = run.fresh ? "1" : "0";
+  fields["fresh"] = std::to_string(int{run.fresh});
   fields["status"] = run.status;
   const auto score = view.scores.find({run.sample, run.seed});
   if (score != view.scores.end() && score->second.value) fields["score"] = sweep::shortest(*score->second.value);
@@ -249,6 +248,7 @@ void set_text(lua_State* L, const char* name, const std::string& text) {
   lua_setfield(L, -2, name);
 }
 
+/// Runs of the search only: those of winners would show them too often.
 int print_plot(const SweepView& view, const SweepOptions& options) {
   const auto rows = all_fields(view);
   const Line names = names_of(view, rows);
@@ -258,7 +258,7 @@ int print_plot(const SweepView& view, const SweepOptions& options) {
                                    fmt::join(names, ", "))};
   std::vector<double> x, y;
   for (const auto& row : rows) {
-    if (!row.contains(options.plot[0]) || !row.contains(options.plot[1])) continue;
+    if (row.at("fresh") != "0" || !row.contains(options.plot[0]) || !row.contains(options.plot[1])) continue;
     char *x_end = nullptr, *y_end = nullptr;
     const double a = std::strtod(row.at(options.plot[0]).c_str(), &x_end);
     const double b = std::strtod(row.at(options.plot[1]).c_str(), &y_end);
@@ -267,23 +267,20 @@ int print_plot(const SweepView& view, const SweepOptions& options) {
     y.push_back(b);
   }
   if (x.empty()) throw UsageError{fmt::format("--plot: no run has numbers for {}", fmt::join(options.plot, " and "))};
-  const std::string png =
-      !options.png.empty() ? options.png : std::filesystem::path(options.files[0]).replace_extension(".png").string();
   Session session(1);
   lua_State* L = session.lua();
   lua_getglobal(L, "require");
-  lua_pushstring(L, "tunica");
+  lua_pushstring(L, "tunica.sweep.plot");
   if (!session.call(1, 1)) return session.exit_code();
-  lua_getfield(L, -1, "plot");
   lua_newtable(L);
-  set_text(L, "file", png);
+  if (!options.png.empty()) set_text(L, "file", options.png);
   push_list(L, "x", x);
   push_list(L, "y", y);
   set_text(L, "xlabel", options.plot[0]);
   set_text(L, "ylabel", options.plot[1]);
   set_text(L, "title", fmt::format("{}, {} runs", view.model, x.size()));
-  if (!session.call(1, 0)) return session.exit_code();
-  fmt::print("{}\n", png);
+  if (!session.call(1, 1)) return session.exit_code();
+  fmt::print("{}\n", lua_tostring(L, -1));
   return ok;
 }
 

@@ -105,15 +105,21 @@ std::vector<std::pair<int64_t, Mean>> SweepView::ranking(bool fresh) const {
 }
 
 size_t SweepView::missing() const {
-  size_t there = 0;
+  const int64_t shard = settings.at("shard"), shards = settings.at("shards");
+  const auto mine = [&](int64_t sample) { return (sample - shard) % shards == 0; };
   const auto wanted = seeds(false);
-  for (const auto& run : runs) there += std::binary_search(wanted.begin(), wanted.end(), run.seed);
-  return samples.size() * wanted.size() - there;
+  size_t missing = 0;
+  for (const auto& sample : samples)
+    if (mine(sample.sample)) missing += wanted.size();
+  for (const auto& run : runs)
+    if (mine(run.sample)) missing -= std::binary_search(wanted.begin(), wanted.end(), run.seed);
+  return missing;
 }
 
 std::string SweepView::command(const sweep::SampleRow& sample, uint64_t seed) const {
   std::string text = "tunica " + quoted(model);
-  for (size_t i = 0; i < parameters.size(); ++i) text += " " + quoted(parameters[i].name + "=" + sample.parameters[i]);
+  for (size_t i = 0; i < parameters.size(); ++i)
+    text += fmt::format(" {}", quoted(fmt::format("{}={}", parameters[i].name, sample.parameters[i])));
   if (identity.at("until").is_number()) text += fmt::format(" --until {}", identity.at("until").get<double>());
   return text + fmt::format(" --seed {}", seed);
 }

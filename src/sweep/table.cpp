@@ -66,8 +66,9 @@ class Statement {
 Table::Table(const std::string& path, Mode mode) : path_(path) {
   std::error_code error;
   if (mode == Mode::read && !std::filesystem::is_regular_file(path, error)) fail("there is no file '{}'", path);
-  const int flags = mode == Mode::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
   try {
+    // A reader may write too, if the file lets it: after kill -9 what was half written is first to be taken back.
+    const int flags = SQLITE_OPEN_READWRITE | (mode == Mode::write ? SQLITE_OPEN_CREATE : 0);
     if (sqlite3_open_v2(path.c_str(), &db_, flags, nullptr) != SQLITE_OK) refuse();
     sqlite3_busy_timeout(db_, 20000);
     // A journal beside the file and not a log (WAL), since the latter does not work on network file systems.

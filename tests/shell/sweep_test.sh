@@ -101,6 +101,20 @@ says failures.txt "limit of 100 MB"
 code 0 sweep way=good,error,crash,hang,memory a=1,2 --grid --time-limit 3 --memory 100 --out bad.db
 [ ! -s err.txt ] || wrong "runs that failed are made again"
 
+# --- Looking at it.
+code 0 env LC_ALL=C "$tunica" sweep show one.db --plot a mean
+says out.txt "*"
+code 0 "$tunica" sweep show one.db --plot a mean --png mean.png
+[ -s mean.png ] || wrong "no plot"
+code 2 "$tunica" sweep show one.db --plot a meen
+says err.txt "did you mean 'mean'"
+code 2 "$tunica" sweep show one.db --sample 99
+says err.txt "there is no sample 99"
+code 2 "$tunica" sweep show nothere.db
+says err.txt "there is no file 'nothere.db'"
+code 0 "$tunica" sweep --help
+says out.txt "3..5:9"
+
 # --- The command line.
 refused() {
   local text=$1
@@ -162,7 +176,11 @@ table whole.db >whole.csv
 same more.csv whole.csv
 
 # --- Parts.
-for k in 1 2 3; do code 0 sweep a=0..5 --sobol 16 --seeds 1..2 --shard $k/3 --out part$k.db -q; done
+for k in 1 2 3; do
+  code 0 sweep a=0..5 --sobol 16 --seeds 1..2 --shard $k/3 --out part$k.db -q
+  code 0 "$tunica" sweep show part$k.db
+  grep -q left out.txt && wrong "a part lacks what is not its own"
+done
 code 0 "$tunica" sweep merge merged.db part1.db part2.db part3.db
 table merged.db >merged.csv
 same merged.csv whole.csv
