@@ -62,12 +62,14 @@ local function take_state(self)
   }
 end
 
-local function write_checkpoint(self, state)
+local function sections_of(self, state)
   state.about.series = state.series
-  return with_files(self, directory.write_checkpoint, self.folder, {
-    model = state.model, random = state.random, about = core.encode(state.about),
-    series = self.series and self.series:text(state.series) or "",
-  })
+  return { model = state.model, random = state.random, about = core.encode(state.about),
+    series = self.series and self.series:text(state.series) or "" }
+end
+
+local function write_checkpoint(self, state)
+  return with_files(self, directory.write_checkpoint, self.folder, sections_of(self, state))
 end
 
 local function restore_state(self, sections)
@@ -81,11 +83,14 @@ local function restore_state(self, sections)
   self.work, self.wall = about.work, about.wall
 end
 
---- A copy in memory, as often as a fiftieth of the time allows: what is kept if an event is broken off in the middle.
+--- A copy in memory, as often as a fiftieth of the time allows: what is kept if an event is broken off in the middle, or
+-- cannot be broken off at all.
 local function shadow(self)
   local now = core.now()
   if now < self.next_shadow then return end
   self.shadow = take_state(self)
+  core.rescue { path = self.folder .. "/checkpoint.bin", sections = sections_of(self, self.shadow),
+    note = string.format("The state at t = %.10g is kept; to continue: tunica resume %s", self.shadow.time, self.folder) }
   self.next_shadow = core.now() + math.max(0.2, 50 * (core.now() - now))
   if now >= self.next_checkpoint then
     write_checkpoint(self, self.shadow)
@@ -376,6 +381,7 @@ function run.close(self, message, code)
     end
   end
   local checkpoint, time = keep(self)
+  core.rescue()
   self.wall_total, self.ended = self.wall + core.now() - self.started, core.date()
   if code == 0 then compare(self) end
   pcall(directory.save_sources, self.folder, self.options.script)

@@ -153,7 +153,7 @@ ApexView read_view(lua_State* L, int at) {
 }
 
 int push_png(lua_State* L, const Picture& picture, const PngTexts& texts) {
-  const std::string png = encode_png(picture, texts);
+  const std::string png = encode_png(picture, texts, &host(L).cancel);
   lua_pushlstring(L, png.data(), png.size());
   lua_pushinteger(L, picture.width);
   lua_pushinteger(L, picture.height);
@@ -167,7 +167,8 @@ int draw_apex(lua_State* L) {
     lua_settop(L, 3);
     const PngTexts texts = read_picture_texts(L, 3);
     const ApexPicture apex = read_apex(L, 1);
-    const ApexView view = read_view(L, 2);
+    ApexView view = read_view(L, 2);
+    view.cancel = &host(L).cancel;
     const bool lattice = TableReader(L, 2).text("lattice").has_value();
     return push_png(L, render(lattice ? scene_of_lattice(apex, view) : scene_of_apex(apex, view)), texts);
   });

@@ -23,8 +23,10 @@ int draw(lua_State* L) {
     Tissue& tissue = tissue_at(L, 1);
     lua_settop(L, 3);
     const PngTexts texts = read_picture_texts(L, 3);
-    const Picture picture = render(scene_of(tissue, read_view_settings(L, tissue, 2)));
-    const std::string png = encode_png(picture, texts);
+    ViewSettings settings = read_view_settings(L, tissue, 2);
+    const CancelFlag* cancel = settings.cancel = &host(L).cancel;
+    const Picture picture = render(scene_of(tissue, settings));
+    const std::string png = encode_png(picture, texts, cancel);
     lua_pushlstring(L, png.data(), png.size());
     lua_pushinteger(L, picture.width);
     lua_pushinteger(L, picture.height);
@@ -135,7 +137,7 @@ int movie_finish(lua_State* L) {
 /// gnuplot(commands): lets gnuplot carry them out.
 int gnuplot(lua_State* L) {
   return guard(L, [&] {
-    run_gnuplot(check_string(L, 1, "commands"));
+    run_gnuplot(check_string(L, 1, "commands"), &host(L).cancel);
     return 0;
   });
 }

@@ -18,6 +18,8 @@ struct RandomStream {
   bool seeded = false;
 };
 
+class Rescue;
+
 /// What one Lua state knows of its host; lives as long as the state.
 struct Host {
   CancelFlag cancel;
@@ -27,6 +29,7 @@ struct Host {
   int tissues_made = 0;
   int rules = 0;                ///< that are being called as they are, one inside another (see InRule)
   bool notes_errors = false;    ///< whether a function is to be told where errors are raised (see note_errors)
+  Rescue* rescue = nullptr;     ///< of a host that has one (see core.rescue)
   lua_State* main = nullptr;    ///< the thread that lives as long as the state
   lua_State* active = nullptr;  ///< the thread that runs an operation which may call back into Lua (see Entering)
 };

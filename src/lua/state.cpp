@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "lua/bind_shape.h"
 #include "lua/guard.h"
+#include "lua/rescue.h"
 
 namespace tunica::lua {
 
@@ -36,6 +37,32 @@ int exit_program(lua_State* L) {
   const int code = lua_isboolean(L, 1) ? (lua_toboolean(L, 1) ? 0 : 1) : static_cast<int>(luaL_optinteger(L, 1, 0));
   lua_close(L);
   std::exit(code);
+}
+
+constexpr double longest_repetition = 1e8;
+
+/// string.rep of a limited length: it cannot be broken off, and would take seconds for a slip of the keyboard.
+int repeat(lua_State* L) {
+  size_t size = 0, between = 0;
+  luaL_checklstring(L, 1, &size);
+  if (!lua_isnoneornil(L, 3)) luaL_checklstring(L, 3, &between);
+  const double count = luaL_checknumber(L, 2), length = count * static_cast<double>(size + between);
+  if (length > longest_repetition)
+    return luaL_error(L, "string.rep: the text would have %f bytes; at most %f are possible", length,
+                      longest_repetition);
+  const int arguments = lua_gettop(L);
+  lua_pushvalue(L, lua_upvalueindex(1));
+  lua_insert(L, 1);
+  lua_call(L, arguments, 1);
+  return 1;
+}
+
+void limit_repetition(lua_State* L) {
+  lua_getglobal(L, "string");
+  lua_getfield(L, -1, "rep");
+  lua_pushcclosure(L, repeat, 1);
+  lua_setfield(L, -2, "rep");
+  lua_pop(L, 1);
 }
 
 /// Scripts get the two harmless functions of `debug`; the rest can change locals of the library and types of handles.
@@ -76,6 +103,7 @@ void open_standard(lua_State* L) {
   open(L, luaopen_math, LUA_MATHLIBNAME);
   open(L, luaopen_debug, LUA_DBLIBNAME);
   open(L, luaopen_bit, LUA_BITLIBNAME);
+  limit_repetition(L);
   limit_debug(L);
   hide_ffi(L);
   // luaopen_jit is not called and the engine is put off: compiled loops cannot be interrupted, and x^2 differs in the
@@ -102,6 +130,7 @@ void open_core(lua_State* L) {
   register_view(L);
   register_apex_view(L);
   register_run(L);
+  register_rescue(L);
   register_shapes(L);
   lua_setfield(L, -2, "tunica.core");
   lua_pop(L, 1);

@@ -69,7 +69,8 @@ bool Prompt::open() {
   if (!session_.call(1, 1)) return false;
   lua_setfield(L, LUA_REGISTRYINDEX, "tunica.prompt");
   call_session("start");
-  if (!session_.call(0, 0)) return false;
+  lua_pushboolean(L, !options_.keeps_history);
+  if (!session_.call(1, 0)) return false;
   lua_getfield(L, LUA_REGISTRYINDEX, "tunica.model");
   if (!lua_isnil(L, -1)) {
     call_session("take");

@@ -111,6 +111,7 @@ void add_parastichies(const DrawnApex& apex, Scene& scene) {
   const float width = std::clamp(0.0042f * static_cast<float>(std::min(scene.width, scene.height)), 1.2f, 12.f);
   for (int family = 0; family < 2; ++family) {
     for (const Link& link : family == 0 ? families.first : families.second) {
+      poll(scene.cancel);
       if (!apex.shown(link.from) || !apex.shown(link.to)) continue;
       const Bump &a = apex.primordia[link.from], &b = apex.primordia[link.to];
       const double low = apex.surface.map_height(a.arc), high = apex.surface.map_height(b.arc);
@@ -169,6 +170,7 @@ void DrawnApex::fill_in() {
   std::vector<Vec3> places;
   for (const Bump& p : primordia) places.push_back(surface.place(p.theta, p.arc));
   for (size_t i = 0; i < primordia.size(); ++i) {
+    poll(view.cancel);
     Bump& p = primordia[i];
     if (!p.number) p.number = static_cast<int>(i + 1);
     if (!p.radius) {
@@ -245,6 +247,7 @@ Scene scene_of_apex(const ApexPicture& apex, const ApexView& view) {
   scene.height = view.height > 0 ? view.height : 800;
   scene.title = view.title;
   scene.background = view.background;
+  scene.cancel = view.cancel;
   set_camera(view, scene);
   scene.light.on = true;
   // Colours that are to be read off a bar must not be lost in shadow.

@@ -67,6 +67,7 @@ struct ApexView {
   bool parastichies = false, labels = false, arrows = false;
   std::optional<double> reach;  ///< arc to which the surface is shown; else as far as there are primordia
   Map map = Map::angles_kept;
+  const CancelFlag* cancel = nullptr;  ///< polled while the scene is made and drawn
 };
 
 /// The apex in space: its surface lit, primordia as bumps, field, ring, parastichies. Seen from above, angles run

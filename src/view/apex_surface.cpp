@@ -114,6 +114,7 @@ void add_apex_surface(const DrawnApex& apex, Scene& scene) {
   const auto rows = static_cast<uint32_t>(std::clamp(side / 5, 60, 180));
   for (uint32_t row = 0; row <= rows; ++row) {
     const double arc = apex.reach * row / rows;
+    poll(scene.cancel);
     for (uint32_t column = 0; column < columns; ++column) {
       const double theta = 2 * M_PI * column / columns;
       const Vec3 at = apex.surface.place(theta, arc);
@@ -139,6 +140,7 @@ void add_apex_surface(const DrawnApex& apex, Scene& scene) {
 void add_bumps(const DrawnApex& apex, Scene& scene) {
   const double pixels = 0.45 * std::min(scene.width, scene.height) / std::max(apex.surface.at(apex.reach).x(), 1e-9);
   for (size_t i = 0; i < apex.primordia.size(); ++i) {
+    poll(scene.cancel);
     if (!apex.shown(i)) continue;
     const Bump& p = apex.primordia[i];
     const double theta = p.theta + apex.view.turn;

@@ -111,6 +111,7 @@ void add_faces(const Tissue& tissue, const Cells& by_place, Scene& scene) {
     return found == by_place.end() ? none : found->second;
   };
   for (const auto& [place, cell] : by_place) {
+    poll(scene.cancel);
     const Index first = tissue.first_side(cell);
     if (first == none) continue;
     // The next column may be the first one again, where the graph is closed around.
@@ -167,6 +168,7 @@ void add_bars(const Tissue& tissue, const Paint& paint, Scene& scene) {
   const double zero = (0 - low) / (high - low) * top;
   std::vector<Vec3> heads;
   for (Index c = 0; c < tissue.cells(); ++c) {
+    poll(scene.cancel);
     const double value = paint.values[static_cast<size_t>(c)], x = place_of(tissue, c).column;
     const double shown = std::isnan(value) ? 0 : std::clamp(value, low, high);
     const double y = (shown - low) / (high - low) * top;

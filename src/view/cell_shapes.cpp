@@ -37,6 +37,7 @@ void add_bands(const Paint& paint, const Outlines& outlines, Scene& scene) {
   if (paint.sides.empty() || !(paint.sides_max > 0)) return;
   const double widest = s.sides_width * outlines.diameter;
   for (size_t cell = 0; cell + 1 < outlines.first.size(); ++cell) {
+    poll(scene.cancel);
     const uint32_t first = outlines.first[cell], last = outlines.first[cell + 1];
     for (uint32_t k = first; k < last; ++k) {
       const Index side = outlines.side_of[k];
@@ -141,6 +142,7 @@ void add_cells(const Tissue& tissue, const Paint& paint, const Outlines& outline
   scene.points = outlines.points;
   scene.indices = outlines.corners;
   for (Index c = 0; c < tissue.cells(); ++c) {
+    poll(scene.cancel);
     const uint32_t first = outlines.first[static_cast<size_t>(c)];
     scene.polygons.push_back({first, outlines.first[static_cast<size_t>(c) + 1] - first, paint.of(c)});
     scene.polygons.back().smooth = paint.settings.light.value_or(false);
@@ -162,6 +164,7 @@ void add_marks(const Paint& paint, const std::vector<Vec3>& centres, double cell
     if (s.marked[c])
       scene.markers.push_back({centres[c], s.marker, s.marker_colour, static_cast<float>(size), {1, 0, 0}});
   for (size_t c = 0; c < s.labels.size(); ++c) {
+    poll(scene.cancel);
     if (s.labels[c].empty()) continue;
     const auto letters = static_cast<double>(s.labels[c].size());
     Label label{centres[c], s.labels[c], ink_for(paint.of(static_cast<Index>(c)))};

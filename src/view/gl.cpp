@@ -194,10 +194,11 @@ class Context {
   const char* renderer() const { return renderer_.c_str(); }
 
   void draw(int width, int height, const Colour& background, const TriangleList& triangles,
-            std::vector<uint8_t>& pixels) {
+            const CancelFlag* cancel, std::vector<uint8_t>& pixels) {
     const auto solid = static_cast<GLsizei>(triangles.solid.size()), upon = static_cast<GLsizei>(triangles.upon.size());
     const auto bytes = static_cast<GLsizeiptr>(sizeof(Vertex));
     const std::vector<Chunk> chunks = chunks_of(triangles.solid);
+    const EmptyAfterwards empty{*this};
     BindVertexArray(arrays_[0]);
     BindBuffer(GL_ARRAY_BUFFER, buffers_[0]);
     BufferData(GL_ARRAY_BUFFER, solid * bytes, triangles.solid.data(), GL_STREAM_DRAW);
@@ -218,9 +219,11 @@ class Context {
         Enable(GL_SCISSOR_TEST);
         clip(triangles, x, y, w, h);
         BindVertexArray(arrays_[0]);
-        for (const Chunk& chunk : chunks)
+        for (const Chunk& chunk : chunks) {
+          poll(cancel);
           if (chunk.right >= x && chunk.left <= x + w && chunk.bottom >= y && chunk.top <= y + h)
             DrawArrays(GL_TRIANGLES, chunk.first, chunk.count);
+        }
         Disable(GL_DEPTH_TEST);
         Disable(GL_SCISSOR_TEST);
         BindVertexArray(arrays_[1]);
@@ -230,14 +233,20 @@ class Context {
     }
     if (const GLenum error = GetError(); error != GL_NO_ERROR)
       fail("cannot draw: OpenGL reports error {:#x}{}", error, error == GL_OUT_OF_MEMORY ? " (out of memory)" : "");
-    // Empty buffers give the vertices' memory back; a large tissue's are tens of megabytes.
-    for (const GLuint buffer : buffers_) {
-      BindBuffer(GL_ARRAY_BUFFER, buffer);
-      BufferData(GL_ARRAY_BUFFER, 0, nullptr, GL_STREAM_DRAW);
-    }
   }
 
  private:
+  /// Empty buffers give the vertices' memory back; a large tissue's are tens of megabytes.
+  struct EmptyAfterwards {
+    Context& context;
+    ~EmptyAfterwards() {
+      for (const GLuint buffer : context.buffers_) {
+        context.BindBuffer(GL_ARRAY_BUFFER, buffer);
+        context.BufferData(GL_ARRAY_BUFFER, 0, nullptr, GL_STREAM_DRAW);
+      }
+    }
+  };
+
   void build_program() {
     program_ = CreateProgram();
     for (const auto& [kind, source] :
@@ -353,11 +362,12 @@ Context& context() {
 
 }  // namespace
 
-std::vector<uint8_t> rasterise(int width, int height, const Colour& background, const TriangleList& triangles) {
+std::vector<uint8_t> rasterise(int width, int height, const Colour& background, const TriangleList& triangles,
+                               const CancelFlag* cancel) {
   constexpr size_t most = size_t{1} << 30;
   if (triangles.solid.size() > most || triangles.upon.size() > most) fail("too much to draw in one picture");
   std::vector<uint8_t> pixels(static_cast<size_t>(width) * static_cast<size_t>(height) * 4);
-  context().draw(width, height, background, triangles, pixels);
+  context().draw(width, height, background, triangles, cancel, pixels);
   return pixels;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/cancel.h"
 #include "view/colour.h"
 #include "view/picture.h"
 
@@ -23,7 +24,8 @@ struct TriangleList {
 };
 
 /// Draws triangles off screen through OSMesa, with 16 samples per pixel (4 in the renderer, twice as many pixels each
-/// way). Errors: OSMesa missing or unusable. The result is premultiplied, four bytes a pixel, rows from the top.
-std::vector<uint8_t> rasterise(int width, int height, const Colour& background, const TriangleList& triangles);
+/// way). Errors: OSMesa missing or unusable; Cancelled. The result is premultiplied, four bytes a pixel, rows from the top.
+std::vector<uint8_t> rasterise(int width, int height, const Colour& background, const TriangleList& triangles,
+                               const CancelFlag* cancel = nullptr);
 
 }  // namespace tunica

@@ -44,13 +44,15 @@ class Memory {
 
 }  // namespace
 
-void run_gnuplot(const std::string& commands) {
+void run_gnuplot(const std::string& commands, const CancelFlag* cancel) {
   Memory input("gnuplot commands"), messages("gnuplot messages");
   input.fill(commands);
   const pid_t plotter = spawn({"gnuplot", "-"}, input.file(), messages.file());
   if (plotter == -ENOENT) fail("gnuplot is not installed (Debian: apt-get install gnuplot-nox)");
   if (plotter < 0) fail("gnuplot does not start: {}", std::strerror(-plotter));
-  if (!wait_for(plotter)) fail("gnuplot failed: {}", messages.beginning());
+  const bool done = wait_for(plotter, cancel);
+  poll(cancel);
+  if (!done) fail("gnuplot failed: {}", messages.beginning());
 }
 
 }  // namespace tunica

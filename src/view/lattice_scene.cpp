@@ -191,6 +191,7 @@ Scene scene_of_lattice(const ApexPicture& apex, const ApexView& view) {
   scene.height = view.height > 0 ? view.height : static_cast<int>(std::clamp(needed, 240.0, 1600.0));
   scene.title = view.title;
   scene.background = view.background;
+  scene.cancel = view.cancel;
   scene.camera.zoom = view.zoom;
   if (view.parastichies) add_families(drawn, map, scene);
   add_primordia(drawn, map, scene);

@@ -33,7 +33,8 @@ void on_write(png_structp png, png_bytep data, size_t size) {
 void on_flush(png_structp) {}
 
 /// libpng reports errors by longjmp: this frame holds nothing that would need a destructor.
-bool write(Sink* sink, const Picture& picture, bool opaque, png_text* texts, int count, png_bytep* rows) {
+bool write(Sink* sink, const Picture& picture, bool opaque, png_text* texts, int count, png_bytep* rows,
+           const CancelFlag* cancel) {
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, sink, on_error, on_warning);
   if (!png) return false;
   png_infop info = png_create_info_struct(png);
@@ -52,7 +53,10 @@ bool write(Sink* sink, const Picture& picture, bool opaque, png_text* texts, int
   if (count > 0) png_set_text(png, info, texts, count);
   png_write_info(png, info);
   if (opaque) png_set_filler(png, 0, PNG_FILLER_AFTER);
-  png_write_image(png, rows);
+  for (int y = 0; y < picture.height; ++y) {
+    if (cancel && cancel->requested()) png_error(png, "interrupted");
+    png_write_row(png, rows[y]);
+  }
   png_write_end(png, info);
   png_destroy_write_struct(&png, &info);
   return true;
@@ -68,7 +72,7 @@ constexpr std::string_view signature("\x89PNG\r\n\x1a\n", 8);
 
 }  // namespace
 
-std::string encode_png(const Picture& picture, const PngTexts& texts) {
+std::string encode_png(const Picture& picture, const PngTexts& texts, const CancelFlag* cancel) {
   const size_t row = static_cast<size_t>(std::max(picture.width, 0)) * 4;
   if (picture.width < 1 || picture.height < 1 || picture.width > max_picture_side ||
       picture.height > max_picture_side || picture.rgba.size() != row * static_cast<size_t>(picture.height))
@@ -93,8 +97,10 @@ std::string encode_png(const Picture& picture, const PngTexts& texts) {
     entries.push_back(entry);
   }
   Sink sink;
-  if (!write(&sink, picture, opaque, entries.data(), static_cast<int>(entries.size()), rows.data()))
+  if (!write(&sink, picture, opaque, entries.data(), static_cast<int>(entries.size()), rows.data(), cancel)) {
+    poll(cancel);
     fail("cannot write a PNG: {}", sink.message);
+  }
   return std::move(sink.bytes);
 }
 

@@ -38,6 +38,7 @@ void clip_to(const Rect& frame, TriangleList& triangles) {
 void draw_labels(const Scene& scene, const Projector& projector, double font, const Rect* frame,
                  std::vector<uint8_t>& pixels) {
   for (const Label& label : scene.labels) {
+    poll(scene.cancel);
     if (!label.at.allFinite()) fail("cannot place the label '{}': its place is not finite", label.text);
     const auto at = projector(label.at);
     // Far outside, coordinates may be too large for whole pixels.
@@ -71,7 +72,7 @@ Picture render(const Scene& scene) {
   const bool cut = scene.camera.zoom != 1 || scene.camera.extent || scene.camera.centre;
   if (cut) clip_to(legend.frame(), triangles);
   legend.add_shapes(triangles.upon);
-  Picture picture{scene.width, scene.height, rasterise(scene.width, scene.height, scene.background, triangles)};
+  Picture picture{scene.width, scene.height, rasterise(scene.width, scene.height, scene.background, triangles, scene.cancel)};
   draw_labels(scene, projector, legend.font_size(), cut ? &legend.frame() : nullptr, picture.rgba);
   legend.draw_texts(picture.rgba);
   if (scene.background.a < 1) unpremultiply(picture.rgba);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/cancel.h"
 #include "view/colour.h"
 
 namespace tunica {
@@ -99,6 +100,8 @@ struct Scene {
   std::vector<Label> labels;
   std::vector<ColourBar> bars;
   std::vector<Key> keys;
+
+  const CancelFlag* cancel = nullptr;  ///< polled while it is drawn
 
   float pad_left = 0, pad_right = 0, pad_top = 0, pad_bottom = 0;  ///< pixels kept free around the content (axes)
 

@@ -3,7 +3,9 @@
 
 #include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 
@@ -48,8 +50,18 @@ pid_t spawn(const std::vector<std::string>& command, int input, int messages) {
   return error ? -error : child;
 }
 
-bool wait_for(pid_t process) {
+bool wait_for(pid_t process, const CancelFlag* cancel) {
   int status = 0;
+  // A signal between a look at the flag and a wait for ever would be lost, so it is looked at again and again.
+  for (long microseconds = 500; cancel && waitpid(process, &status, WNOHANG) == 0;) {
+    if (cancel->requested()) {
+      kill(-process, SIGKILL);
+      cancel = nullptr;
+    }
+    usleep(static_cast<useconds_t>(microseconds));
+    microseconds = std::min(2 * microseconds, 10000L);
+    if (!cancel) break;
+  }
   while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
   }
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/cancel.h"
+
 namespace tunica {
 
 /// Starts a program, found by PATH as command[0], as a process of its own group: a Ctrl-C meant for the run does not
@@ -13,7 +15,7 @@ namespace tunica {
 /// would not survive it. Returns its process, or minus the system's error number (-ENOENT: no such program).
 pid_t spawn(const std::vector<std::string>& command, int input, int messages);
 
-/// Waits until a process that spawn started has ended. True if it was content (exit code 0).
-bool wait_for(pid_t process);
+/// Waits until a process that spawn started has ended, and ends it when cancelled. True if it was content (exit code 0).
+bool wait_for(pid_t process, const CancelFlag* cancel = nullptr);
 
 }  // namespace tunica

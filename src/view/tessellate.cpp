@@ -35,15 +35,23 @@ class Tessellator {
     for (const Vec3& point : scene_.points) pixels_.push_back(projector_(point));
     if (scene_.light.on) average_normals();
     const auto order = order_of(scene_.polygons);
-    for (const uint32_t i : order) add_face(scene_.polygons[i], 0);
-    for (const uint32_t i : order_of(scene_.bands)) add_face(scene_.bands[i], band_lift);
-    for (const uint32_t i : order) add_outline(scene_.polygons[i]);
-    for (const Line& line : scene_.lines)
+    each(order, [&](uint32_t i) { add_face(scene_.polygons[i], 0); });
+    each(order_of(scene_.bands), [&](uint32_t i) { add_face(scene_.bands[i], band_lift); });
+    each(order, [&](uint32_t i) { add_outline(scene_.polygons[i]); });
+    each(scene_.lines, [&](const Line& line) {
       add_segment(projector_(line.from), projector_(line.to), line.colour, line.width, line_lift);
-    for (const Marker& marker : scene_.markers) add_marker(marker);
+    });
+    each(scene_.markers, [&](const Marker& marker) { add_marker(marker); });
   }
 
  private:
+  void each(const auto& list, const auto& work) {
+    for (const auto& item : list) {
+      poll(scene_.cancel);
+      work(item);
+    }
+  }
+
   void check() const {
     for (const auto* list : {&scene_.polygons, &scene_.bands})
       for (const Polygon& p : *list)

@@ -115,6 +115,7 @@ Scene scene_of(const Tissue& tissue, const ViewSettings& s) {
   Scene scene;
   scene.title = s.title;
   scene.background = s.background;
+  scene.cancel = s.cancel;
   add_legend(s, paint, scene);
   const Layout layout = layout_of(tissue, s);
   const bool wide = layout == Layout::bars;

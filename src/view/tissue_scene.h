@@ -50,6 +50,7 @@ struct ViewSettings {
   std::vector<Vec3> place;   ///< of each cell, in space: neighbouring cells span a surface (no own geometry)
   bool wireframe = false;    ///< with `place`: lines between neighbours instead of a coloured surface
   std::optional<Camera> camera;
+  const CancelFlag* cancel = nullptr;  ///< polled while the scene is made and drawn
   std::optional<bool> light;  ///< a lamp for what is not flat; else only for surfaces by `place`
 };
 

@@ -296,6 +296,38 @@ TEST_F(PromptTest, WhatCannotBeStoppedIsSaid) {
   EXPECT_EQ(terminal_->exit_code(), 130);
 }
 
+TEST_F(PromptTest, WhatDoesNotReturnIsLeftAndTheStateIsKept) {
+  const std::string endless = "string.rep('a', 30000):find(('a*'):rep(30) .. 'b')";
+  start({"-q", "-i", "patterning/sheet", "cells=60"});
+  says("run(2)", "now at t = 2");
+  says("x = 17", "");
+  const auto begin = Clock::now();
+  terminal_->type(endless + "\r");
+  terminal_->watch(0.3);
+  terminal_->type("\x03");
+  EXPECT_TRUE(terminal_->shows("The state at t = 2 is kept")) << terminal_->screen().text();
+  EXPECT_EQ(terminal_->exit_code(), 130);
+  EXPECT_LT(std::chrono::duration<double>(Clock::now() - begin).count(), 8);
+  std::string kept;
+  for (const auto& entry : fs::directory_iterator(folder_ / "state/tunica"))
+    if (entry.path().filename().string().starts_with("rescued")) kept = entry.path().string();
+  start({"-q"}, {}, 200);
+  says("restore '" + kept + "'", "sheet at t = 2");
+  says("x", "\n17\n");
+  says("run(4)", "now at t = 4: 200 steps");
+  // What was typed is kept of a model that has no file; three times Ctrl-C does not wait.
+  start({"-q"}, {}, 200);
+  says("here = 1", "");
+  terminal_->type(endless + "\r");
+  terminal_->watch(0.3);
+  for (int i = 0; i < 3; ++i) {
+    terminal_->type("\x03");
+    terminal_->watch(0.2);
+  }
+  EXPECT_TRUE(terminal_->shows("What was typed before is kept in")) << terminal_->screen().text();
+  EXPECT_EQ(terminal_->exit_code(2), 130);
+}
+
 TEST_F(PromptTest, RunsLooksAndPlots) {
   start({"-q", "-i", "patterning/sheet", "cells=60"});
   says("run(model, {until = 2})", "now at t = 2: 200 steps");

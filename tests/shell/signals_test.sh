@@ -44,6 +44,29 @@ done
 stopped INT 130 "$tunica" "$fake" loop_at=0.02 --out stuck
 says err.txt "interrupted at t = 0; checkpoint"
 
+# A function of Lua's own that does not return: the copy in memory is written, and the program ends by itself.
+cat >stuck.lua <<'MODEL'
+local tunica = require "tunica"
+local tissue = tunica.ring { 20 }
+tissue:cell { x = 1 }
+local model = tunica.model { tissue = tissue, dt = 0.001, stop = 3 }
+model:rate(function(c, d) d.x = -c.x end)
+model:every(0.001, function() tissue:mean "x" end)
+model:at(2, function() if arg[1] == "stuck=1" then string.rep("a", 30000):find(("a*"):rep(30) .. "b") end end)
+tunica.params { stuck = { 0, "whether it hangs" } }
+return model
+MODEL
+"$tunica" stuck.lua stuck=1 --out hung -q >out.txt 2>err.txt </dev/null &
+process=$!
+sleep 1.5; kill -TERM $process; wait $process
+[ $? -eq 143 ] || wrong "a run that cannot be stopped returned $?"
+says err.txt "cannot be broken off"; says err.txt "tunica resume hung"
+[ -s hung/checkpoint.bin ] || wrong "no checkpoint of a run that cannot be stopped"
+sed -i 's/== "stuck=1"/== "never"/' hung/script/stuck.lua
+code 0 "$tunica" resume hung
+"$tunica" stuck.lua --out free -q >out.txt
+[ "$(field hung/run.json result.hash)" = "$(field free/run.json result.hash)" ] || wrong "resumed to another result"
+
 # A second signal ends it at once, even where the first is not heeded.
 "$tunica" -e 'string.rep("a", 30000):find(("a*"):rep(30) .. "b")' 2>err.txt &
 process=$!

@@ -7,8 +7,10 @@
 #include <thread>
 
 #include "base/error.h"
+#include "view/gnuplot.h"
 #include "view/legend.h"
 #include "view/palette.h"
+#include "view/png.h"
 
 namespace tunica {
 namespace {
@@ -246,6 +248,27 @@ TEST(Render, AnEmptySceneIsItsGround) {
   Scene scene;
   scene.width = scene.height = 32;
   for (const uint8_t byte : render(scene).rgba) EXPECT_EQ(byte, 255);
+}
+
+TEST(Render, StopsWhenCancelled) {
+  CancelFlag cancel;
+  Scene scene = small_scene(3000, 3000);
+  scene.cancel = &cancel;
+  for (int i = 0; i < 100; ++i) scene.add(scene.polygons, box(-5, -5, 5, 5), red);
+  const Picture whole = render(scene);
+  cancel.request();
+  EXPECT_THROW(render(scene), Cancelled);
+  EXPECT_THROW(encode_png(whole, {}, &cancel), Cancelled);
+  EXPECT_THROW(run_gnuplot("pause 10", &cancel), Cancelled);
+  cancel.clear();
+  std::thread later([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    cancel.request();
+  });
+  EXPECT_THROW(while (true) render(scene), Cancelled);
+  later.join();
+  cancel.clear();
+  EXPECT_EQ(render(scene).rgba, whole.rgba);
 }
 
 TEST(Ticks, AreRoundNumbersWithinTheScale) {

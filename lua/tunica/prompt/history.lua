@@ -38,6 +38,10 @@ local function take(what, force)
     tissue = rawget(g, "tissue"), P = rawget(g, "P") }
 end
 
+--- The state at hand for others, not kept here. `begins`: one that was taken before this line serves again.
+local at_line
+function history.present(begins) return begins and at_line or take("now") end
+
 local function same(a, b) return a.model == b.model and a.snapshot == b.snapshot end
 
 local function push(point)
@@ -50,7 +54,7 @@ end
 
 --- Keeps the state at hand, unless the last one kept is the same. `force`: also of a model that has not begun.
 function history.keep(what, force)
-  armed = nil
+  armed, at_line = nil, nil
   local point = take(what, force)
   if not point then return end
   local last = points[#points]
@@ -62,6 +66,7 @@ function history.keep(what, force)
 end
 
 local function go_to(point)
+  at_line = nil
   local g = desk.globals
   g.model, g.tissue, g.P, desk.source = point.model, point.tissue, point.P, point.source
   if point.model then point.model:restore(point.snapshot) end
@@ -123,7 +128,7 @@ local function sets_a_field(text) return text:find "[%.%]]%s*[%a_]*[%w_]*%s*=[^=
 
 desk.on_line(function(text)
   local short = text:gsub("%s+", " "):sub(1, 60)
-  armed = short
+  armed, at_line = short, nil
   if text:match "^%s*undo%s*[%({]" or text:match "^%s*redo%s*[%({]" then
     armed = nil
   elseif desk.model() and (is_cheap() or sets_a_field(text)) then
@@ -134,6 +139,7 @@ desk.on_line(function(text)
     elseif point then
       last.what = short
     end
+    at_line = point
     if point then armed = nil end
   end
 end)

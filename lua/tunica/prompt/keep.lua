@@ -6,6 +6,7 @@ local registry = require "tunica.registry"
 local plain = require "tunica.plain"
 local desk = require "tunica.prompt.desk"
 local history = require "tunica.prompt.history"
+local screen = require "tunica.prompt.screen"
 local script = require "tunica.prompt.script"
 local op, fail = registry.op, registry.fail
 local function say(...) desk.say(...) end
@@ -15,16 +16,40 @@ local file = { name = "file", type = "string", required = true, doc = "its path"
 
 -- Sessions --------------------------------------------------------------------------------------------------------------
 
---- Plain variables of the prompt; names that stand for the model are made anew.
-local function variables()
+--- Whether a value holds no more than so many entries.
+local function is_small(value, most)
+  if type(value) == "string" then return #value < most end
+  if type(value) ~= "table" then return true end
+  local left = most
+  local function count(t, depth)
+    for _, item in next, t do
+      left = left - 1
+      if left < 0 or depth > 20 then return false end
+      if type(item) == "table" and not count(item, depth + 1) then return false end
+    end
+    return true
+  end
+  return count(value, 1)
+end
+
+--- Plain variables of the prompt, `most`: those that are not larger; names that stand for the model are made anew.
+local function variables(most)
   local found = {}
   for name, value in next, desk.globals do
     if type(name) == "string" and not desk.is_given(name, value) and name ~= "model" and name ~= "tissue" and name ~= "P"
-        and plain.is_plain(value) then
+        and plain.is_plain(value) and (not most or is_small(value, most)) then
       found[name] = value
     end
   end
   return plain.encode(found)
+end
+
+--- What a session file holds: of the model at hand, in this state, and the plain variables.
+local function sections_of(model, source, snapshot, most)
+  local about = { path = core.absolute_path(source.path), name = source.name, shipped = source.shipped,
+    overrides = source.overrides, seed = core.seed(),
+    solution = desk.has_tissue(model) and model:solution() or nil, files = script.files(source), time = model.time }
+  return { mark = mark, about = core.encode(about), model = snapshot, variables = variables(most) }
 end
 
 op { name = "prompt.save", args = { file },
@@ -34,11 +59,7 @@ op { name = "prompt.save", args = { file },
   fn = function(path)
     local model, source = desk.need_model "save", desk.source
     if not source then fail "save: this model was typed here; transcript \"file\" keeps what was typed, as a script" end
-    local about = { path = core.absolute_path(source.path), name = source.name, shipped = source.shipped,
-      overrides = source.overrides, seed = core.seed(),
-      solution = desk.has_tissue(model) and model:solution() or nil, files = script.files(source), time = model.time }
-    core.write_atomic(path, core.pack { mark = mark, about = core.encode(about), model = model:snapshot(),
-      variables = variables() })
+    core.write_atomic(path, core.pack(sections_of(model, source, model:snapshot())))
     say("%s at t = %.6g is kept in %s", source.name, model.time, path)
   end }
 
@@ -125,12 +146,13 @@ local typed = require("tunica.prompt.desk").begin_line
 
 local function goes_back(text) return text:match "^%s*undo%s*[%({]" or text:match "^%s*redo%s*[%({]" end
 
---- The lines that ran without an error, as a script.
-local function as_script(path)
+--- The lines that ran without an error, the first so many of them, as a script.
+local function as_script(path, count)
   local out, left_out, with_undo = { (head:format(path:match "[^/]+$" or path)) }, 0, false
   for _, line in ipairs(desk.lines) do with_undo = with_undo or line.ok and goes_back(line.text) end
   if with_undo then out[2] = telling_lines end
-  for _, line in ipairs(desk.lines) do
+  for i, line in ipairs(desk.lines) do
+    if i > (count or i) then break end
     if not only_tells(line.text) then
       local statement = line.ok and as_statement(line.text)
       if statement then
@@ -154,3 +176,37 @@ op { name = "prompt.transcript", args = { file },
     core.write_atomic(path, text)
     say("%s written%s", path, left_out > 0 and string.format("; lines that failed, as comments: %d", left_out) or "")
   end }
+
+-- What is left when the program must be ended --------------------------------------------------------------------------------
+
+-- A function of Lua's own that does not return (a pattern that backtracks for ever) cannot be broken off: then the program
+-- writes what it was handed here last.
+local folder = os.getenv "XDG_STATE_HOME" or ""
+if folder:sub(1, 1) ~= "/" then folder = os.getenv "HOME" and os.getenv "HOME" .. "/.local/state" or "." end
+local rescued = string.format("%s/tunica/rescued-%d", folder, core.process_id())
+
+local most_entries = 10000  -- of a variable that is rescued
+local next_time, share = 0, 50
+
+local function rescue(begins)
+  local model, source = desk.model(), desk.source
+  local point = model and source and history.present(begins)
+  if not point then  -- the line that runs now is no part of what is worth keeping
+    if #desk.lines < 2 or screen.private then return core.rescue() end
+    return core.rescue { path = rescued .. ".lua", bytes = (as_script(rescued .. ".lua", #desk.lines - 1)),
+      note = "What was typed before is kept in " .. rescued .. ".lua" }
+  end
+  core.rescue { path = rescued, sections = sections_of(model, source, point.snapshot, most_entries),
+    note = string.format('The state at t = %.6g is kept: restore "%s"', model.time, rescued) }
+end
+
+--- Hands the state at hand to the program, as often as a fiftieth of the time allows.
+local function hand_over(begins)
+  local now = core.now()
+  if now < next_time then return end
+  pcall(rescue, begins)
+  local took = core.now() - now
+  next_time = took < 0.005 and 0 or now + share * took
+end
+desk.on_line(function() hand_over(true) end)
+desk.on_slice = hand_over

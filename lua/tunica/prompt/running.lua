@@ -182,6 +182,8 @@ local function advance(model, goal, o, bar)
     if every and model.time >= pause - 1e-9 * every or status == "done" then record(model) end
     if status == "done" then return "done" end
     if deadline and core.now() >= deadline then return "out of time" end
+    local desk = package.loaded["tunica.prompt.desk"]
+    if desk and desk.on_slice then desk.on_slice() end
     progress.update(bar, model.time, unit_size[1], unit_size[2], work)
   end
 end

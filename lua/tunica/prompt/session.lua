@@ -321,8 +321,10 @@ function session.init(path)
   return run(fn, path)
 end
 
---- To be called once, when the prompt comes: from then on the place is noted at which an error is first raised.
-function session.start()
+--- To be called once, when the prompt comes: from then on the place is noted at which an error is first raised. `private`: what
+-- is typed is not to be kept anywhere.
+function session.start(private)
+  screen.private = private
   local function note(message) return errors().note(message) end
   core.note_errors(note)
   -- The library catches errors to put its state in order, and raises them again: what the stack said would be lost.
