@@ -26,11 +26,11 @@ int build(lua_State* L, Build&& make) {
 }
 
 int build_line(lua_State* L) {
-  return build(L, [&] { return line(cells_at(L, 1, "'cells'"), seed_at(L, 2)); });
+  return build(L, [&] { return line(cells_at(L, 1, "'cells'"), seed_at(L, 2), &host(L).cancel); });
 }
 
 int build_ring(lua_State* L) {
-  return build(L, [&] { return ring(cells_at(L, 1, "'cells'"), seed_at(L, 2)); });
+  return build(L, [&] { return ring(cells_at(L, 1, "'cells'"), seed_at(L, 2), &host(L).cancel); });
 }
 
 /// (columns, rows, wrap "none" | "x" | "both", seed)
@@ -38,27 +38,27 @@ int build_grid(lua_State* L) {
   return build(L, [&] {
     const std::string name = check_string(L, 3, "'wrap'");
     const Wrap wrap = name == "both" ? Wrap::both : name == "x" ? Wrap::x : Wrap::open;
-    return grid(cells_at(L, 1, "'columns'"), cells_at(L, 2, "'rows'"), wrap, seed_at(L, 4));
+    return grid(cells_at(L, 1, "'columns'"), cells_at(L, 2, "'rows'"), wrap, seed_at(L, 4), &host(L).cancel);
   });
 }
 
 int build_cylinder(lua_State* L) {
-  return build(L, [&] { return cylinder(cells_at(L, 1, "'around'"), cells_at(L, 2, "'rows'"), seed_at(L, 3)); });
+  return build(L, [&] { return cylinder(cells_at(L, 1, "'around'"), cells_at(L, 2, "'rows'"), seed_at(L, 3), &host(L).cancel); });
 }
 
 int build_squares(lua_State* L) {
-  return build(L, [&] { return squares(cells_at(L, 1, "'columns'"), cells_at(L, 2, "'rows'"), seed_at(L, 3)); });
+  return build(L, [&] { return squares(cells_at(L, 1, "'columns'"), cells_at(L, 2, "'rows'"), seed_at(L, 3), &host(L).cancel); });
 }
 
 int build_hexagons(lua_State* L) {
   return build(L, [&] {
-    return hexagons(cells_at(L, 1, "'columns'"), cells_at(L, 2, "'rows'"), check_number(L, 3, "'area'"), seed_at(L, 4));
+    return hexagons(cells_at(L, 1, "'columns'"), cells_at(L, 2, "'rows'"), check_number(L, 3, "'area'"), seed_at(L, 4), &host(L).cancel);
   });
 }
 
 int build_hexagon_disk(lua_State* L) {
   return build(L, [&] {
-    return hexagon_disk(check_integer(L, 1, "'radius'", 0, 2000), check_number(L, 2, "'area'"), seed_at(L, 3));
+    return hexagon_disk(check_integer(L, 1, "'radius'", 0, 2000), check_number(L, 2, "'area'"), seed_at(L, 3), &host(L).cancel);
   });
 }
 
@@ -112,7 +112,7 @@ int build_polygons(lua_State* L) {
       }
       lua_pop(L, 1);
     }
-    return polygons(cells, check_number(L, 2, "'tolerance'"), seed_at(L, 3));
+    return polygons(cells, check_number(L, 2, "'tolerance'"), seed_at(L, 3), &host(L).cancel);
   });
 }
 

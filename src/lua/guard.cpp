@@ -71,6 +71,7 @@ void note_errors(lua_State* L) {
 }
 
 void call(lua_State* L, int arguments, int results) {
+  const Running script(false);
   if (!host(L).notes_errors) {
     if (lua_pcall(L, arguments, results, 0) != 0) throw ScriptError(L);
     return;

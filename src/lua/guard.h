@@ -92,10 +92,25 @@ void note_errors(lua_State* L);
 /// Calls the function below its `arguments` on the stack; a Lua error comes back as a ScriptError.
 void call(lua_State* L, int arguments, int results);
 
+/// Whether an operation of the kernel runs, else Lua or a function of its own. A signal handler may ask.
+inline thread_local volatile bool in_operation = false;
+
+/// For its length that is so.
+class Running {
+ public:
+  explicit Running(bool operation) : before_(in_operation) { in_operation = operation; }
+  ~Running() { in_operation = before_; }
+  Running(const Running&) = delete;
+
+ private:
+  bool before_;
+};
+
 /// Runs `body`, turning any C++ exception into a Lua error with the script's file and line.
 /// Lua errors raised inside pass through (they unwind C++ frames). Every function given to Lua is wrapped in this.
 template <class Body>
 int guard(lua_State* L, Body&& body) {
+  const Running operation(true);
   try {
     return body();
   } catch (const ScriptError& error) {

@@ -74,6 +74,8 @@ void on_alarm(int) {
       watchdog->save();
       return set_alarm(3);
     default:
+      // The kernel's own operations end: one that does not poll the flag goes on until it has, or the user has enough.
+      if (lua::in_operation) return;
       leave(128 + pending);
   }
 }

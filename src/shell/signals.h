@@ -13,7 +13,7 @@ class Watchdog;
 /// for Lua code that does not look at the flag, a hook that raises "interrupted" at every instruction until `calm`, so
 /// that no pcall of a script can swallow it. What has not stopped after 2 s, such as a function of Lua's own that is
 /// not done, never may: then a watchdog writes what the host of the state holds to be rescued (core.rescue), and 3 s
-/// later it ends the program. A second signal ends the program at once. One at a time.
+/// later it ends the program, unless an operation of the kernel is running, which will end. A second signal ends the program at once. One at a time.
 class Interrupts {
  public:
   explicit Interrupts(lua_State* L);

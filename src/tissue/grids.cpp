@@ -19,19 +19,25 @@ void require_size(int64_t n, int64_t least, const char* what) {
   if (n > 4'000'000) fail("{} must be at most 4000000, not {}", what, n);
 }
 
-Tissue build_grid(int64_t nx, int64_t ny, bool wrap_x, bool wrap_y, uint64_t seed) {
+Tissue build_grid(int64_t nx, int64_t ny, bool wrap_x, bool wrap_y, uint64_t seed,
+                  const CancelFlag* cancel) {
   if (nx * ny > 4'000'000) fail("a grid can have at most 4000000 cells, not {}", nx * ny);
   Tissue tissue(false, seed);
   TissueEditor editor(tissue);
   const Index columns = static_cast<Index>(nx), rows = static_cast<Index>(ny), cells = columns * rows;
-  for (Index i = 0; i < cells; ++i) editor.set_place(editor.add_cell(), i / columns, i % columns);
+  for (Index i = 0; i < cells; ++i) {
+    poll(cancel);
+    editor.set_place(editor.add_cell(), i / columns, i % columns);
+  }
   // Walls first, each as the cell meets it (next column, next row), then sides cell by cell in cyclic order.
   std::vector<std::array<Index, 2>> wall_of(static_cast<size_t>(cells), {none, none});
   for (Index i = 0; i < cells; ++i) {
+    poll(cancel);
     if (i % columns + 1 < columns || wrap_x) wall_of[static_cast<size_t>(i)][0] = editor.add_wall();
     if (i / columns + 1 < rows || wrap_y) wall_of[static_cast<size_t>(i)][1] = editor.add_wall();
   }
   for (Index i = 0; i < cells; ++i) {
+    poll(cancel);
     const Index row = i / columns, column = i % columns;
     const Index west = row * columns + (column + columns - 1) % columns;
     const Index south = (row + rows - 1) % rows * columns + column;
@@ -46,26 +52,26 @@ Tissue build_grid(int64_t nx, int64_t ny, bool wrap_x, bool wrap_y, uint64_t see
 
 }  // namespace
 
-Tissue line(int64_t n, uint64_t seed) {
+Tissue line(int64_t n, uint64_t seed, const CancelFlag* cancel) {
   require_size(n, 1, "the number of cells in a line");
-  return build_grid(n, 1, false, false, seed);
+  return build_grid(n, 1, false, false, seed, cancel);
 }
 
-Tissue ring(int64_t n, uint64_t seed) {
+Tissue ring(int64_t n, uint64_t seed, const CancelFlag* cancel) {
   require_size(n, 3, "the number of cells in a ring");
-  return build_grid(n, 1, true, false, seed);
+  return build_grid(n, 1, true, false, seed, cancel);
 }
 
-Tissue grid(int64_t nx, int64_t ny, Wrap wrap, uint64_t seed) {
+Tissue grid(int64_t nx, int64_t ny, Wrap wrap, uint64_t seed, const CancelFlag* cancel) {
   require_size(nx, wrap == Wrap::open ? 1 : 3, "the number of columns of a grid");
   require_size(ny, wrap == Wrap::both ? 3 : 1, "the number of rows of a grid");
-  return build_grid(nx, ny, wrap != Wrap::open, wrap == Wrap::both, seed);
+  return build_grid(nx, ny, wrap != Wrap::open, wrap == Wrap::both, seed, cancel);
 }
 
-Tissue cylinder(int64_t around, int64_t rows, uint64_t seed) {
+Tissue cylinder(int64_t around, int64_t rows, uint64_t seed, const CancelFlag* cancel) {
   require_size(around, 3, "the number of cells around a cylinder");
   require_size(rows, 1, "the number of rows of a cylinder");
-  return build_grid(around, rows, true, false, seed);
+  return build_grid(around, rows, true, false, seed, cancel);
 }
 
 // === Rows

@@ -38,13 +38,18 @@ uint64_t key(Index a, Index b) { return (static_cast<uint64_t>(a) << 32) | stati
 
 }  // namespace
 
-Tissue assemble(const std::vector<Vec3>& points, const std::vector<Face>& cells, uint64_t seed) {
-  for (size_t i = 0; i < cells.size(); ++i) check_face(points, cells[i], i + 1);
+Tissue assemble(const std::vector<Vec3>& points, const std::vector<Face>& cells, uint64_t seed,
+                const CancelFlag* cancel) {
+  for (size_t i = 0; i < cells.size(); ++i) {
+    poll(cancel);
+    check_face(points, cells[i], i + 1);
+  }
   Tissue tissue(true, seed);
   TissueEditor editor(tissue);
   std::vector<Index> junction(points.size(), none);  // points that no cell uses stay out
   std::unordered_map<uint64_t, Index> side_from_to;
   for (size_t i = 0; i < cells.size(); ++i) {
+    poll(cancel);
     const Index cell = editor.add_cell();
     const Face& face = cells[i];
     for (size_t k = 0; k < face.size(); ++k) {
@@ -114,11 +119,12 @@ void check_corner(const Vec3& p, double tolerance, size_t polygon) {
 
 }  // namespace
 
-Tissue polygons(const std::vector<std::vector<Vec3>>& cells, double tolerance, uint64_t seed) {
+Tissue polygons(const std::vector<std::vector<Vec3>>& cells, double tolerance, uint64_t seed, const CancelFlag* cancel) {
   if (!(tolerance > 0) || !std::isfinite(tolerance)) fail("the tolerance must be positive, not {}", tolerance);
   Welder welder(tolerance);
   std::vector<Face> faces;
   for (size_t i = 0; i < cells.size(); ++i) {
+    poll(cancel);
     Face face;
     bool in_plane = true;
     for (const Vec3& p : cells[i]) {
@@ -134,7 +140,7 @@ Tissue polygons(const std::vector<std::vector<Vec3>>& cells, double tolerance, u
     if (in_plane && face.size() >= 3 && signed_area(flat) < 0) std::reverse(face.begin() + 1, face.end());
     faces.push_back(std::move(face));
   }
-  return assemble(welder.points, faces, seed);
+  return assemble(welder.points, faces, seed, cancel);
 }
 
 // === Regular patches
@@ -163,7 +169,7 @@ class HexagonLattice {
     for (const auto& [dx, dy] : corners) face.push_back(corner(x + dx, y + dy));
     faces_.push_back(std::move(face));
   }
-  Tissue build(uint64_t seed) const { return assemble(points_, faces_, seed); }
+  Tissue build(uint64_t seed, const CancelFlag* cancel) const { return assemble(points_, faces_, seed, cancel); }
 
  private:
   Index corner(int64_t x, int64_t y) {
@@ -181,7 +187,7 @@ class HexagonLattice {
 
 }  // namespace
 
-Tissue squares(int64_t nx, int64_t ny, uint64_t seed) {
+Tissue squares(int64_t nx, int64_t ny, uint64_t seed, const CancelFlag* cancel) {
   require_size(nx, 1, "the number of columns");
   require_size(ny, 1, "the number of rows");
   require_cells(nx * ny);
@@ -193,27 +199,31 @@ Tissue squares(int64_t nx, int64_t ny, uint64_t seed) {
   for (int64_t y = 0; y < ny; ++y)
     for (int64_t x = 0; x < nx; ++x)  // the side to the next column comes first, as in grid()
       faces.push_back({corner(x + 1, y), corner(x + 1, y + 1), corner(x, y + 1), corner(x, y)});
-  return assemble(points, faces, seed);
+  return assemble(points, faces, seed, cancel);
 }
 
-Tissue hexagons(int64_t nx, int64_t ny, double area, uint64_t seed) {
+Tissue hexagons(int64_t nx, int64_t ny, double area, uint64_t seed, const CancelFlag* cancel) {
   require_size(nx, 1, "the number of columns");
   require_size(ny, 1, "the number of rows");
   require_cells(nx * ny);
   HexagonLattice lattice(area);
-  for (int64_t y = 0; y < ny; ++y)
+  for (int64_t y = 0; y < ny; ++y) {
+    poll(cancel);
     for (int64_t x = 0; x < nx; ++x) lattice.add(2 * x + y % 2, 3 * y);
-  return lattice.build(seed);
+  }
+  return lattice.build(seed, cancel);
 }
 
-Tissue hexagon_disk(int64_t radius, double area, uint64_t seed) {
+Tissue hexagon_disk(int64_t radius, double area, uint64_t seed, const CancelFlag* cancel) {
   require_size(radius, 0, "the number of rings of hexagons");
   require_cells(1 + 3 * radius * (radius + 1));
   HexagonLattice lattice(area);
-  for (int64_t r = -radius; r <= radius; ++r)
+  for (int64_t r = -radius; r <= radius; ++r) {
+    poll(cancel);
     for (int64_t q = -radius; q <= radius; ++q)
       if (std::abs(q + r) <= radius) lattice.add(2 * q + r, 3 * r);
-  return lattice.build(seed);
+  }
+  return lattice.build(seed, cancel);
 }
 
 Tissue polygon(int sides, double area, uint64_t seed) {
