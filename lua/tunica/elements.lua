@@ -13,19 +13,22 @@ local tissue = tunica.hexagons { 3, 3 }
 local c = tissue:find(5)
 ]]
 
-local function property(name, doc, fn, example)
-  op { name = name, kind = "property", doc = doc, fn = fn, example = setup .. example }
+local function property(name, returns, doc, fn, example)
+  op { name = name, kind = "property", returns = returns, doc = doc, fn = fn, example = setup .. example }
 end
 
 for _, kind in ipairs(kinds) do
   local take = kind == "cell" and "local e = c\n" or string.format("local e = tissue:find(1, %q)\n", kind)
-  property(kind .. ".id", "The identity of the " .. kind .. ": a whole number that never changes and is never used again. " ..
+  property(kind .. ".id", "a whole number",
+    "The identity of the " .. kind .. ": a whole number that never changes and is never used again. " ..
     "Handles are not the same as table keys: write t[" .. kind:sub(1, 1) .. ".id].", core.id, take .. "print(e.id)")
-  property(kind .. ".alive", "Whether the " .. kind .. " is still there: false after it has divided or was removed.",
+  property(kind .. ".alive", "true or false",
+    "Whether the " .. kind .. " is still there: false after it has divided or was removed.",
     core.alive, take .. "print(e.alive)")
-  property(kind .. ".kind", "The word '" .. kind .. "'.", core.kind, take .. "print(e.kind)")
-  property(kind .. ".tissue", "The tissue that the " .. kind .. " belongs to.", core.tissue_of, take .. "print(e.tissue)")
-  property(kind .. ".border", ({
+  property(kind .. ".kind", "text", "The word '" .. kind .. "'.", core.kind, take .. "print(e.kind)")
+  property(kind .. ".tissue", "the tissue", "The tissue that the " .. kind .. " belongs to.", core.tissue_of,
+    take .. "print(e.tissue)")
+  property(kind .. ".border", "true or false", ({
     cell = "Whether one of the cell's walls has no cell on its other side.",
     wall = "Whether the wall has a cell on one side only.",
     side = "Whether there is no cell across the side.",
@@ -35,8 +38,8 @@ end
 
 -- Cells ------------------------------------------------------------------------------------------------------------
 
-property("cell.valence", "The number of neighbouring cells.", core.valence, "print(c.valence)")
-property("cell.side_count", "The number of sides: of walls, those of the border among them.", core.side_count,
+property("cell.valence", "a whole number", "The number of neighbouring cells.", core.valence, "print(c.valence)")
+property("cell.side_count", "a whole number", "The number of sides: of walls, those of the border among them.", core.side_count,
   "print(c.side_count)")
 
 op { name = "cell:neighbours", fn = core.neighbours,
@@ -82,21 +85,22 @@ op { name = "wall:junctions", fn = core.wall_junctions,
   example = setup .. wall .. [[local p, q = w:junctions() print(p.x, q.x)]] }
 
 local side = "local s = c:sides()()\n"
-property("side.cell", "The cell that the side belongs to.", core.side_cell, side .. "print(s.cell.id)")
-property("side.neighbour", "The cell across, or nil at the border.", core.side_neighbour, side .. "print(s.neighbour)")
-property("side.wall", "The wall that the side is half of.", core.side_wall, side .. "print(s.wall.length)")
-property("side.opposite", "The side of the cell across, or nil at the border.", core.side_opposite,
+property("side.cell", "cell", "The cell that the side belongs to.", core.side_cell, side .. "print(s.cell.id)")
+property("side.neighbour", "cell or nil at the border", "The cell across, or nil at the border.", core.side_neighbour,
+  side .. "print(s.neighbour)")
+property("side.wall", "wall", "The wall that the side is half of.", core.side_wall, side .. "print(s.wall.length)")
+property("side.opposite", "side or nil at the border", "The side of the cell across, or nil at the border.", core.side_opposite,
   side .. "print(s.opposite)")
-property("side.next", "The next side of the same cell, counter-clockwise.", core.side_next, side .. "print(s.next.id)")
-property("side.previous", "The side of the same cell before this one.", core.side_previous,
+property("side.next", "side", "The next side of the same cell, counter-clockwise.", core.side_next, side .. "print(s.next.id)")
+property("side.previous", "side", "The side of the same cell before this one.", core.side_previous,
   side .. "print(s.previous.id)")
-property("side.from", "The junction where the side begins. Needs a tissue with geometry.", core.side_from,
+property("side.from", "junction", "The junction where the side begins. Needs a tissue with geometry.", core.side_from,
   side .. "print(s.from.x)")
-property("side.to", "The junction where the side ends. Needs a tissue with geometry.", core.side_to_junction,
+property("side.to", "junction", "The junction where the side ends. Needs a tissue with geometry.", core.side_to_junction,
   side .. "print(s.to.x)")
 
 for _, axis in ipairs { "x", "y", "z" } do
-  property("junction." .. axis, "The " .. axis .. " coordinate of the junction.", core["junction_" .. axis],
+  property("junction." .. axis, "a number", "The " .. axis .. " coordinate of the junction.", core["junction_" .. axis],
     string.format("print(tissue:find(1, 'junction').%s)", axis))
 end
 op { name = "junction:cells", fn = core.junction_cells,

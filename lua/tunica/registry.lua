@@ -7,6 +7,8 @@
 --        runs = true,                 -- changes the state of a model, not its rules
 --        kind = "named",              -- "positional" (default), "named" (one table of options) or "property"
 --        args = { { name = "above", type = "number", above = 0, unit = "area", doc = "..." }, ... },
+--        options = { ... },           -- positional only: what a table given may hold, like args; the function checks it
+--        signature = "run([model, ] time)",  -- where what follows from args would not tell
 --        rest = { type = "any" },     -- named only: other keys are allowed, with values of this type (columns)
 --        doc = "One sentence. More sentences.", returns = "number of divisions", source = "thesis 3.4",
 --        example = [[...]],           -- runs by itself

@@ -256,13 +256,13 @@ function tissue:show(options) end
 ---A cell
 ---@class tunica.cell
 ---@field [string] number
----@field id any The identity of the cell: a whole number that never changes and is never used again. Handles are not the same as table keys: write t[c.id].
----@field alive any Whether the cell is still there: false after it has divided or was removed.
----@field kind any The word 'cell'.
----@field tissue any The tissue that the cell belongs to.
----@field border any Whether one of the cell's walls has no cell on its other side.
----@field valence any The number of neighbouring cells.
----@field side_count any The number of sides: of walls, those of the border among them.
+---@field id integer The identity of the cell: a whole number that never changes and is never used again. Handles are not the same as table keys: write t[c.id].
+---@field alive boolean Whether the cell is still there: false after it has divided or was removed.
+---@field kind string The word 'cell'.
+---@field tissue tunica.tissue The tissue that the cell belongs to.
+---@field border boolean Whether one of the cell's walls has no cell on its other side.
+---@field valence integer The number of neighbouring cells.
+---@field side_count integer The number of sides: of walls, those of the border among them.
 local cell = {}
 
 ---Goes through the neighbouring cells in cyclic order, counter-clockwise seen from outside; with each comes the wall to it. A neighbour across several walls comes once.
@@ -383,23 +383,23 @@ function cell:sum(f) end
 ---A wall between two cells, or at the border
 ---@class tunica.wall
 ---@field [string] number
----@field id any The identity of the wall: a whole number that never changes and is never used again. Handles are not the same as table keys: write t[w.id].
----@field alive any Whether the wall is still there: false after it has divided or was removed.
----@field kind any The word 'wall'.
----@field tissue any The tissue that the wall belongs to.
----@field border any Whether the wall has a cell on one side only.
+---@field id integer The identity of the wall: a whole number that never changes and is never used again. Handles are not the same as table keys: write t[w.id].
+---@field alive boolean Whether the wall is still there: false after it has divided or was removed.
+---@field kind string The word 'wall'.
+---@field tissue tunica.tissue The tissue that the wall belongs to.
+---@field border boolean Whether the wall has a cell on one side only.
 local wall = {}
 
 ---The one or two cells that share the wall.
----@return any # cell, cell or nil at the border
+---@return tunica.cell, tunica.cell? # cell, cell or nil at the border
 function wall:cells() end
 
 ---The one or two sides of the wall.
----@return any # side, side or nil at the border
+---@return tunica.side, tunica.side? # side, side or nil at the border
 function wall:sides() end
 
 ---The two ends of the wall. Needs a tissue with geometry.
----@return any # junction, junction
+---@return tunica.junction, tunica.junction # junction, junction
 function wall:junctions() end
 
 ---A random number from `low` to `high` that belongs to the wall. The number depends on nothing but the seed and these arguments: the same call gives the same number, in whatever order and however often cells are visited. Count `draw` up for fresh ones.
@@ -421,19 +421,19 @@ function wall:normal(mean, deviation, purpose, draw) end
 ---A wall as one of its cells sees it
 ---@class tunica.side
 ---@field [string] number
----@field id any The identity of the side: a whole number that never changes and is never used again. Handles are not the same as table keys: write t[s.id].
----@field alive any Whether the side is still there: false after it has divided or was removed.
----@field kind any The word 'side'.
----@field tissue any The tissue that the side belongs to.
----@field border any Whether there is no cell across the side.
----@field cell any The cell that the side belongs to.
----@field neighbour any The cell across, or nil at the border.
----@field wall any The wall that the side is half of.
----@field opposite any The side of the cell across, or nil at the border.
----@field next any The next side of the same cell, counter-clockwise.
----@field previous any The side of the same cell before this one.
----@field from any The junction where the side begins. Needs a tissue with geometry.
----@field to any The junction where the side ends. Needs a tissue with geometry.
+---@field id integer The identity of the side: a whole number that never changes and is never used again. Handles are not the same as table keys: write t[s.id].
+---@field alive boolean Whether the side is still there: false after it has divided or was removed.
+---@field kind string The word 'side'.
+---@field tissue tunica.tissue The tissue that the side belongs to.
+---@field border boolean Whether there is no cell across the side.
+---@field cell tunica.cell The cell that the side belongs to.
+---@field neighbour tunica.cell? The cell across, or nil at the border.
+---@field wall tunica.wall The wall that the side is half of.
+---@field opposite tunica.side? The side of the cell across, or nil at the border.
+---@field next tunica.side The next side of the same cell, counter-clockwise.
+---@field previous tunica.side The side of the same cell before this one.
+---@field from tunica.junction The junction where the side begins. Needs a tissue with geometry.
+---@field to tunica.junction The junction where the side ends. Needs a tissue with geometry.
 local side = {}
 
 ---A random number from `low` to `high` that belongs to the side. The number depends on nothing but the seed and these arguments: the same call gives the same number, in whatever order and however often cells are visited. Count `draw` up for fresh ones.
@@ -455,14 +455,14 @@ function side:normal(mean, deviation, purpose, draw) end
 ---A point where walls meet
 ---@class tunica.junction
 ---@field [string] number
----@field id any The identity of the junction: a whole number that never changes and is never used again. Handles are not the same as table keys: write t[j.id].
----@field alive any Whether the junction is still there: false after it has divided or was removed.
----@field kind any The word 'junction'.
----@field tissue any The tissue that the junction belongs to.
----@field border any Whether the junction lies on the border of the tissue.
----@field x any The x coordinate of the junction.
----@field y any The y coordinate of the junction.
----@field z any The z coordinate of the junction.
+---@field id integer The identity of the junction: a whole number that never changes and is never used again. Handles are not the same as table keys: write t[j.id].
+---@field alive boolean Whether the junction is still there: false after it has divided or was removed.
+---@field kind string The word 'junction'.
+---@field tissue tunica.tissue The tissue that the junction belongs to.
+---@field border boolean Whether the junction lies on the border of the tissue.
+---@field x number The x coordinate of the junction.
+---@field y number The y coordinate of the junction.
+---@field z number The z coordinate of the junction.
 local junction = {}
 
 ---Goes through the cells that meet in the junction, counter-clockwise.
@@ -580,7 +580,7 @@ function model:solve_with(options) end
 ---
 ---Source: thesis 9.5
 ---@param options? tunica.model_steady_options
----@return any # a table: how (elimination, sparse factors, newton), iterations, residual, growth (largest real part found among the eigenvalues of the Jacobian), stable
+---@return table # a table: how (elimination, sparse factors, newton), iterations, residual, growth (largest real part found among the eigenvalues of the Jacobian), stable
 function model:steady(options) end
 
 ---@class tunica.model_view_options
@@ -726,11 +726,11 @@ function phyllotaxis:field(theta, a, y, which) end
 
 ---What the pattern of its primordia is, those of the start left out: see tunica.pattern.
 ---@param options? tunica.phyllotaxis_pattern_options
----@return any # what tunica.pattern gives
+---@return table # what tunica.pattern gives
 function phyllotaxis:pattern(options) end
 
 ---The place on the ring where the field of the first inhibitor is lowest now, among the candidates if there are any.
----@return any # the angle (degrees), the field there, and whether it is below every threshold
+---@return number angle, number field, boolean below # the angle (degrees), the field there, and whether it is below every threshold
 function phyllotaxis:minimum() end
 
 ---@class tunica.phyllotaxis_view_options
@@ -804,7 +804,7 @@ function phyllotaxis:picture(options) end
 ---
 ---Source: thesis figs. 4.2, 4.4
 ---@param options? tunica.phyllotaxis_plot_options|string|string[]
----@return any # the path, or paths
+---@return string|string[] # the path, or paths
 function phyllotaxis:plot(options) end
 
 ---A curve in the plane
@@ -813,7 +813,7 @@ local contour = {}
 
 ---A point of the contour and the direction of the curve there.
 ---@param u number place along the curve by its parameter, 0 to 1 (which is not arc length) (number from 0 to 1; needed)
----@return any # x, y, and the unit tangent's x, y
+---@return number x, number y, number tangent_x, number tangent_y # x, y, and the unit tangent's x, y
 function contour:at(u) end
 
 ---The length of the contour, to 1e-12 of it.
@@ -822,18 +822,18 @@ function contour:length() end
 
 ---The point of the contour at an arc length, to 1e-10 of its length.
 ---@param s number arc length from the start, to the contour's length; of a closed contour any, which goes round (number; length; needed)
----@return any # x, y
+---@return number x, number y # x, y
 function contour:along(s) end
 
 ---The direction of the contour at an arc length, a unit vector; at a corner that of what follows.
 ---@param s number arc length from the start, to the contour's length; of a closed contour any, which goes round (number; length; needed)
----@return any # x, y
+---@return number x, number y # x, y
 function contour:tangent(s) end
 
 ---The place of the contour nearest to a point, the first of several; its distance is the least to 1e-10 of the length.
 ---@param x number of the point (number from -1e+100 to 1e+100; needed)
 ---@param y number of the point (number from -1e+100 to 1e+100; needed)
----@return any # its arc length, x, y
+---@return number arc, number x, number y # its arc length, x, y
 function contour:closest(x, y) end
 
 ---The area within the contour, positive if it runs counter-clockwise; one that is not closed is closed by a straight line from its end to its start. Exact.
@@ -917,7 +917,7 @@ function apex:closest(x, y, z) end
 
 ---The profile at an arc length: distance from the axis and height.
 ---@param a number arc length from the tip (number from 0 to 1000000000000; length; needed)
----@return any # x, y, and the unit tangent's x, y
+---@return number x, number y, number tangent_x, number tangent_y # x, y, and the unit tangent's x, y
 function apex:profile(a) end
 
 ---The length of the profile as drawn, its largest radius, and the radius of the hole at the tip (0: none).
@@ -967,7 +967,7 @@ function surface:closest(x, y, z) end
 ---@param x number coordinate of a point (number; needed)
 ---@param y number coordinate of a point (number; needed)
 ---@param z number coordinate of a point (number; needed)
----@return any # x, y, z, of length 1
+---@return number x, number y, number z # x, y, z, of length 1
 function surface:normal(x, y, z) end
 
 ---Where a point of the surface will be.
@@ -1044,7 +1044,7 @@ function tunica.abs(x) end
 ---
 ---Source: thesis 4.3
 ---@param options? tunica.allowable_interval_options|integer
----@return any # the least and the greatest angle; nil if the pair is not visible and opposed at `angle`
+---@return number? least, number? greatest # the least and the greatest angle; nil if the pair is not visible and opposed at `angle`
 function tunica.allowable_interval(options) end
 
 ---@class tunica.apex_options
@@ -1309,7 +1309,7 @@ function tunica.params(options) end
 ---Source: thesis 4.3, tables 4.1 and 4.2
 ---@param list any[] primordia, oldest first: angles, or tables { angle =, time =, radius = | x =, y =, z =, left =, right = }; the axis is y, places are all of one moment; left and right: numbers of the older ones that were nearest when it arose (list of items; needed)
 ---@param options? table { jugacy = (found if left out), first =, last = (numbers of primordia), expected = { angle =, jugacy =, pair = { m, n } } } (table)
----@return any # a table that prints as its description
+---@return table # a table that prints as its description
 function tunica.pattern(list, options) end
 
 ---@class tunica.phyllotaxis_options
@@ -1354,7 +1354,7 @@ function tunica.phyllotaxis(options) end
 
 ---Plots numbers against numbers, by gnuplot. For divergence angles against the number of the primordium, a pattern against a threshold, a field around the ring.
 ---@param options? tunica.plot_options|string|string[]
----@return any # the path, or paths
+---@return string|string[] # the path, or paths
 function tunica.plot(options) end
 
 ---@class tunica.polygon_options

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
@@ -72,9 +73,22 @@ void warn_of_unused(const Options& options) {
   if (unused && !options.quiet) say_warning("the script returned no model: options of a run have no effect");
 }
 
-int start_prompt(Session& session, const Options& options, bool banner) {
-  return run_prompt(session,
-                    {.banner = banner && !options.quiet, .keeps_history = options.history, .runs_init = options.init});
+int start_prompt(Session& session, const Options& options, bool banner, bool failed = false) {
+  return run_prompt(session, {.banner = banner && !options.quiet,
+                              .keeps_history = options.history,
+                              .runs_init = options.init,
+                              .failed = failed});
+}
+
+/// With -i the prompt comes also after a script that failed or was interrupted: there one can look why.
+int after_failure(Session& session, const Options& options, const Script& script) {
+  const int signal = session.interrupts().signal();
+  if (!options.interactive || session.exit_code() == usage_error || (signal && signal != SIGINT))
+    return failed(options, session);
+  session.interrupts().calm(true);
+  if (!script.path.empty() && script.path != "-" && script.path != code_path)
+    say_note(fmt::format("the prompt has what was defined before; when the script is mended: load \"{}\"", script.path));
+  return start_prompt(session, options, false, true);
 }
 
 int run_model(Session& session, Options& options, const Script& script, const std::string& name) {
@@ -103,14 +117,14 @@ int run_script(Options& options) {
   Script script;
   for (const auto& code : options.code) {
     script = {code_path, std::string("=") + code_path, code, "."};
-    if (!session.run(script, true)) return failed(options, session);
+    if (!session.run(script, true)) return after_failure(session, options, script);
   }
   const bool prompt = options.script.empty() && options.code.empty() && isatty(STDIN_FILENO);
   if (prompt) return start_prompt(session, options, true);
   if (!options.script.empty() || options.code.empty()) {
     if (options.script.empty()) options.script.assign(1, '-');  // GCC 12 warns of an assignment without reason
     script = read_script(options.script);
-    if (!session.run(script, true)) return failed(options, session);
+    if (!session.run(script, true)) return after_failure(session, options, script);
   }
   if (!is_model(session)) {
     if (session.exit_code()) return failed(options, session);

@@ -43,10 +43,10 @@ class Prompt {
   std::unique_ptr<History> history_;
   std::unique_ptr<Editor> editor_;
   int interrupts_in_a_row_ = 0;
-  bool failed_ = false;
+  bool failed_;
 };
 
-Prompt::Prompt(Session& session, const PromptOptions& options) : session_(session), options_(options) {
+Prompt::Prompt(Session& session, const PromptOptions& options) : session_(session), options_(options), failed_(options.failed) {
   if (!terminal_) return;
   history_ = std::make_unique<History>(options.keeps_history ? history_path() : "");
   editor_ = std::make_unique<Editor>([this](const auto& line, size_t cursor) { return complete(line, cursor); },

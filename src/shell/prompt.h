@@ -9,6 +9,7 @@ struct PromptOptions {
   bool banner = true;         ///< versions at the start
   bool keeps_history = true;  ///< false: private, nothing is read or written
   bool runs_init = true;      ///< the user's init.lua
+  bool failed = false;        ///< what ran before the prompt
 };
 
 /// Reads inputs from standard input and runs them until its end; shows values; Ctrl-C returns to the prompt. Where that

@@ -3,80 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <memory>
 
-#include "shell/pseudo_terminal.h"
+#include "shell/prompt_session.h"
 
 namespace tunica::shell {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-namespace fs = std::filesystem;
-
-class PromptTest : public ::testing::Test {
- protected:
-  PromptTest() {
-    std::string name = (fs::temp_directory_path() / "tunica_prompt_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-  }
-  ~PromptTest() override {
-    terminal_.reset();
-    fs::remove_all(folder_);
-  }
-
-  std::map<std::string, std::string> environment() const {
-    return {{"TERM", "xterm-256color"},
-            {"LC_ALL", "C.UTF-8"},
-            {"NO_COLOR", "1"},
-            {"INPUTRC", "/dev/null"},
-            {"HOME", folder_.string()},
-            {"XDG_STATE_HOME", (folder_ / "state").string()},
-            {"XDG_CONFIG_HOME", (folder_ / "config").string()},
-            {"TUNICA_IMAGES", "blocks"}};
-  }
-
-  /// Starts the program and waits for its prompt.
-  PseudoTerminal& start(const std::vector<std::string>& arguments = {}, std::map<std::string, std::string> more = {},
-                        int width = 80) {
-    std::vector<std::string> command = {TUNICA_PROGRAM};
-    command.insert(command.end(), arguments.begin(), arguments.end());
-    more.merge(environment());
-    terminal_ = std::make_unique<PseudoTerminal>(command, more, width);
-    EXPECT_TRUE(terminal_->stands_at(">", 60)) << terminal_->screen().text();
-    return *terminal_;
-  }
-
-  /// Types a line and expects an answer before the next prompt.
-  void says(const std::string& line, const std::string& answer) {
-    terminal_->type(line + "\r");
-    EXPECT_TRUE(terminal_->shows(answer)) << "after: " << line << "\n" << terminal_->screen().text();
-    EXPECT_TRUE(terminal_->stands_at(">")) << terminal_->screen().text();
-  }
-
-  /// Types a line that goes on for ever, and then Ctrl-C; the seconds until the prompt is back.
-  double time_to_stop(const std::string& line, double before = 0.5) {
-    terminal_->type(line + "\r");
-    terminal_->watch(before);
-    EXPECT_NE(terminal_->screen().line(), ">") << "it ended by itself: " << line << "\n" << terminal_->screen().text();
-    const auto start = Clock::now();
-    terminal_->type("\x03");
-    EXPECT_TRUE(terminal_->stands_at(">", 10)) << line << "\n" << terminal_->screen().text();
-    return std::chrono::duration<double>(Clock::now() - start).count();
-  }
-
-  std::string file(const std::string& name) const {
-    std::ifstream in(folder_ / name);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
-
-  fs::path folder_;
-  std::unique_ptr<PseudoTerminal> terminal_;
-};
 
 TEST_F(PromptTest, ShowsValuesAndKeepsTheLast) {
   start({"-q"});

@@ -126,17 +126,29 @@ local function add_parameters(list, prefix, P)
   end
 end
 
+--- Names of a table that begin so, sorted. Of very many only some, but always the first and the last: what all have in
+-- common at their beginning is what these two have.
+local function names_in(value, prefix, mark, seen)
+  local names, after, first, last = {}, prefix .. "\255", nil, nil
+  for name, item in next, value do
+    if type(name) == "string" and name >= prefix and name < after and (mark == "." or type(item) == "function")
+      and not seen[name] and name:find "^[%a_][%w_]*$" then
+      if not first or name < first then first = name end
+      if not last or name > last then last = name end
+      if #names < most - 2 then names[#names + 1], seen[name] = name, true end
+    end
+  end
+  for _, name in ipairs { first, last } do
+    if not seen[name] then names[#names + 1], seen[name] = name, true end
+  end
+  table.sort(names)
+  return names
+end
+
 local function add_table(list, prefix, value, mark)
   local seen = {}
   for _ = 1, 8 do
-    local names = {}
-    for name, item in next, value do
-      if type(name) == "string" and name:match "^[%a_][%w_]*$" and name:sub(1, #prefix) == prefix and not seen[name]
-        and (mark == "." or type(item) == "function") and #names < 2000 then
-        names[#names + 1], seen[name] = name, true
-      end
-    end
-    table.sort(names)
+    local names = names_in(value, prefix, mark, seen)
     for _, name in ipairs(names) do add(list, prefix, name, about_value(value[name])) end
     local meta = debug.getmetatable(value)
     value = type(meta) == "table" and rawget(meta, "__index")
@@ -216,7 +228,7 @@ end
 --- Options of an operation whose table is open.
 local function options(entry, prefix)
   local list = {}
-  for _, spec in ipairs(entry.args) do
+  for _, spec in ipairs(entry.kind == "named" and entry.args or entry.options) do
     local default = spec.default ~= nil and type(spec.default) ~= "table" and " (" .. values.brief(spec.default) .. ")" or ""
     add(list, prefix, spec.name, (spec.unit and spec.unit .. "  " or "") .. (spec.doc or "") .. default)
   end
@@ -340,7 +352,7 @@ return function(line, cursor)
   local last = open[#open]
   if last and last[1] == "{" then
     local entry = call_around(text:sub(1, last[2]), open)
-    if entry and entry.kind == "named" then list = options(entry, word) end
+    if entry and (entry.kind == "named" or entry.options) then list = options(entry, word) end
   end
   if #list == 0 or word ~= "" then
     for _, each in ipairs(globals(word)) do list[#list + 1] = each end

@@ -48,6 +48,7 @@ local function option(name)
   local rows = {}
   for _, entry in ipairs(registry.all()) do
     local spec = entry.by_key[name]
+    for _, each in ipairs(entry.options or {}) do spec = spec or each.name == name and each end
     if spec then
       local expected = pages.expected(spec)
       rows[#rows + 1] = { entry.title, spec.doc .. (expected ~= "" and " (" .. expected .. ")" or "") }
@@ -109,6 +110,7 @@ local function known_names()
     add(entry.title)
     add(entry.member)
     for _, spec in ipairs(entry.args) do add(spec.name) end
+    for _, spec in ipairs(entry.options or {}) do add(spec.name) end
   end
   for name in pairs(topics) do add(name) end
   for _, model in ipairs(script.shipped()) do

@@ -62,6 +62,7 @@ end
 --- How an operation is written: tissue:find(id [, kind]), tunica.sheet { cells =, seed = }, cell.id
 function pages.signature(entry)
   if entry.kind == "property" then return entry.title end
+  if entry.signature then return entry.signature end
   local needed, optional = {}, {}
   for _, spec in ipairs(entry.args) do
     local list = spec.required and #optional == 0 and needed or optional
@@ -96,6 +97,10 @@ function pages.operation(entry)
   for _, spec in ipairs(entry.args) do
     local expected = pages.expected(spec)
     rows[#rows + 1] = { spec.name, spec.doc .. (expected ~= "" and " (" .. expected .. ")" or "") }
+  end
+  for _, spec in ipairs(entry.options or {}) do
+    local expected = pages.expected(spec)
+    rows[#rows + 1] = { spec.name .. " =", spec.doc .. (expected ~= "" and " (" .. expected .. ")" or "") }
   end
   if entry.rest then rows[#rows + 1] = { "name = value", (entry.rest.doc or "any other names") .. " (" ..
     pages.expected(entry.rest) .. ")" } end

@@ -28,6 +28,9 @@ local function operation(entry)
     for _, spec in ipairs(entry.args) do
       out[#out + 1] = string.format("| `%s` | %s | %s |", spec.name, cell(spec.doc), cell(pages.expected(spec)))
     end
+    for _, spec in ipairs(entry.options or {}) do
+      out[#out + 1] = string.format("| `%s =` | %s | %s |", spec.name, cell(spec.doc), cell(pages.expected(spec)))
+    end
     if entry.rest then
       out[#out + 1] = string.format("| name = value | %s | %s |", cell(entry.rest.doc or "any other names"),
         cell(pages.expected(entry.rest)))

@@ -15,12 +15,14 @@ running.commands = commands
 
 local fail = registry.fail
 
---- Declares a command of the prompt: its arguments are looked at by the command itself.
-local function command(name, doc, example, fn)
-  commands[name] = registry.op { name = "prompt." .. name, doc = doc, example = example, fn = fn,
-    args = { { name = "first", type = "any", doc = "a model, or what comes after it" },
-      { name = "second", type = "any", doc = "see above" }, { name = "third", type = "any", doc = "see above" } } }
+--- Declares a command of the prompt: { args, options, signature, returns, doc, example, fn }. What comes is looked at by the
+-- command itself, since a model may come first or not at all.
+local function command(name, entry)
+  entry.name = "prompt." .. name
+  commands[name] = registry.op(entry)
 end
+
+local model_argument = { name = "model", type = "any", doc = "by default the model at hand" }
 
 local slice = 0.05  -- seconds between looks at the clock
 
@@ -188,9 +190,16 @@ local function advance(model, goal, o, bar)
   end
 end
 
-command("run", "Runs the model at hand, or a given one: run(50) to t = 50, run { by = 10 }, " ..
-    "run { to = 50, seconds = 5, quiet = true }, run() to its own end. Ctrl-C stops it between two steps; run() goes on.",
-  [[load "patterning/ring" run(1)]], function(a, b)
+command("run", { signature = "run([model, ] time), or run([model, ] { options })",
+  doc = "Runs the model at hand, or a given one: run(50) to t = 50, run { by = 10 }, run { to = 50, seconds = 5 }, run() to its " ..
+    "own end. Ctrl-C stops it between two steps; run() goes on.",
+  args = { model_argument, { name = "time", type = "any", doc = "where it ends; or a table of options" } },
+  options = { { name = "to", type = "number", unit = "time", doc = "where it ends; `until` is the same" },
+    { name = "by", type = "number", above = 0, unit = "time", doc = "how much further it runs" },
+    { name = "seconds", type = "number", doc = "most that it may take" },
+    { name = "quiet", type = "boolean", default = false, doc = "no progress is shown" } },
+  returns = "a table that prints as its description: model, status, time, steps, seconds, reports",
+  example = [[load "patterning/ring" run(1)]], fn = function(a, b)
   local model, o = arguments("run", a, b, run_options)
   local goal = goal_of(model, o)
   session.settle_variables()
@@ -201,7 +210,7 @@ command("run", "Runs the model at hand, or a given one: run(50) to t = 50, run {
   progress.clear(bar)
   if not ok then error(status, 0) end
   return result(model, status, steps, started)
-end)
+end })
 
 --- One step; of phyllotaxis up to the next primordium.
 local function one_step(model)
@@ -213,8 +222,11 @@ local function one_step(model)
   until model.count > count
 end
 
-command("step", [[Takes one step of the method, or so many: step(10). Of phyllotaxis up to the next primordium.]],
-  [[load "patterning/ring" step(3)]], function(a, b)
+command("step", { signature = "step([model, ] [count])",
+  doc = "Takes one step of the method, or so many: step(10). Of phyllotaxis up to the next primordium.",
+  args = { model_argument, { name = "count", type = "any", doc = "how many steps, 1 if not given" } },
+  returns = "a table that prints as its description: model, status, time, steps, seconds, reports",
+  example = [[load "patterning/ring" step(3)]], fn = function(a, b)
   local model, o = arguments("step", a, b, { "count" })
   local count = o.count or 1
   if count < 1 or count ~= math.floor(count) then fail("step: expected a whole number of steps from 1 on, came %.14g", count) end
@@ -225,7 +237,7 @@ command("step", [[Takes one step of the method, or so many: step(10). Of phyllot
     if status == "interrupted" or core.cancelled() then break end
   end
   return result(model, status == "interrupted" and status or "done", steps, started)
-end)
+end })
 
 -- Looking -------------------------------------------------------------------------------------------------------------------
 
@@ -258,9 +270,12 @@ local function view_of(model, given)
   return out
 end
 
-command("show", "Draws the model at hand in the terminal as its view says: show(), show 'column', " ..
+command("show", { signature = "show([model, ] [what])",
+  doc = "Draws the model at hand in the terminal as its view says: show(), show 'column', " ..
     "show { colour = 'column', palette = 'magma' }, show(tissue, 'column').",
-  [[load "patterning/ring" show()]], function(a, b)
+  args = { { name = "model", type = "any", doc = "a model or a tissue; by default the model at hand" },
+    { name = "what", type = "any", doc = 'a view of the model or a column, by name; or options of a view: help "model:view"' } },
+  example = [[load "patterning/ring" show()]], fn = function(a, b)
   require "tunica"
   if values.kind(a) == "tissue" then
     if type(b) == "string" then b = { colour = b } end
@@ -276,7 +291,7 @@ command("show", "Draws the model at hand in the terminal as its view says: show(
     fail("show: expected the name of a view or column, or a table of options, came %s", core.describe(given))
   end
   write_picture((require("tunica.view").draw(model, view_of(model, given))))
-end)
+end })
 
 local function the_tissue(operation, model)
   if values.kind(model) == "tissue" then return model end
@@ -302,15 +317,20 @@ local function kind_of_column(tissue, name)
   return nil, all
 end
 
-command("column", [[Count, range, mean and a small histogram of a column: column "auxin", column("pin", "side").]],
-  [[load "patterning/ring" print(column "auxin")]], function(a, b, c)
+command("column", { signature = "column([tissue, ] name [, kind])",
+  doc = [[Count, range, mean and a small histogram of a column: column "auxin", column("pin", "side").]],
+  args = { { name = "tissue", type = "any", doc = "or a model; by default the tissue at hand" },
+    { name = "name", type = "any", doc = "of the column" },
+    { name = "kind", type = "any", doc = "'cell', 'side', 'wall' or 'junction'; by default the first that has it" } },
+  returns = "a table that prints as its description: name, kind, count, min, max, mean, values (a list)",
+  example = [[load "patterning/ring" print(column "auxin")]], fn = function(a, b, c)
   if type(a) == "string" then a, b, c = nil, a, b end
   local tissue = the_tissue("column", a)
   if type(b) ~= "string" then fail("column: expected the name of a column, came %s", core.describe(b)) end
   local kind, all = kind_of_column(tissue, b)
   if c == nil and not kind then fail("column: there is no column '%s'%s", b, core.did_you_mean(b, all)) end
   return values.column(tissue, b, c or kind)
-end)
+end })
 
 local function plot_lists(given)
   local series = given.series or { { x = given.x, y = given.y, title = given.title } }
@@ -332,9 +352,16 @@ local function plot_column(tissue, name, kind)
   print(require("tunica.prompt.plot")({ { y = column.values } }, { title = name .. " by cell", lines = true }))
 end
 
-command("plot", "Plots in characters: plot 'peaks' a report over the time of runs at this prompt, plot 'auxin' a column, " ..
+command("plot", { signature = "plot([model, ] name), or plot { y = list, options }",
+  doc = "Plots in characters: plot 'peaks' a report over the time of runs at this prompt, plot 'auxin' a column, " ..
     "plot { y = list, x = list } any numbers.",
-  [[load "patterning/ring" run(1) plot "auxin"]], function(a, b)
+  args = { model_argument, { name = "what", type = "any", doc = "a report or a column, by name; by default the first report" } },
+  options = { { name = "y", type = "list", of = "number", doc = "what is plotted; a plain list is the same" },
+    { name = "x", type = "list", of = "number", doc = "over what; by default 1, 2, 3 ..." },
+    { name = "series", type = "list", doc = "several: { { x =, y =, title = }, ... }" },
+    { name = "title", type = "string", doc = "above the plot" },
+    { name = "style", type = "string", choices = { "points", "lines" }, default = "points", doc = "whether points are joined" } },
+  example = [[load "patterning/ring" run(1) plot "auxin"]], fn = function(a, b)
   local model, what = nil, a
   if is_model(a) or b ~= nil then model, what = a, b end
   if type(what) == "table" then
@@ -369,7 +396,7 @@ command("plot", "Plots in characters: plot 'peaks' a report over the time of run
   for _, name in ipairs(all or {}) do names[#names + 1] = name end
   if not kind then fail("plot: there is no report and no column '%s'%s", what, core.did_you_mean(what, names)) end
   plot_column(tissue, what, kind)
-end)
+end })
 
 commands.quit = registry.op { name = "prompt.quit", fn = function() session.leave() end, example = "print(quit)",
   doc = "Leaves the prompt; so does Ctrl-D on an empty line." }

@@ -52,6 +52,19 @@ local results = { ["a number"] = "number", ["a whole number"] = "integer", text 
   ["the element, or nil if it is gone or never was"] = "tunica.cell|tunica.wall|tunica.side|tunica.junction|nil",
     ["the path"] = "string",
   ["the two daughters"] = "tunica.cell, tunica.cell", ["an iterator: neighbour, wall"] = "fun(): tunica.cell, tunica.wall",
+  cell = "tunica.cell", side = "tunica.side", wall = "tunica.wall", junction = "tunica.junction",
+  ["cell or nil at the border"] = "tunica.cell?", ["side or nil at the border"] = "tunica.side?",
+  ["cell, cell or nil at the border"] = "tunica.cell, tunica.cell?",
+  ["side, side or nil at the border"] = "tunica.side, tunica.side?", ["junction, junction"] = "tunica.junction, tunica.junction",
+  ["x, y"] = "number x, number y", ["its arc length, x, y"] = "number arc, number x, number y",
+  ["what tunica.pattern gives"] = "table",
+  ["the angle (degrees), the field there, and whether it is below every threshold"] =
+    "number angle, number field, boolean below",
+  ["the path, or paths"] = "string|string[]", ["x, y, and the unit tangent's x, y"] =
+    "number x, number y, number tangent_x, number tangent_y",
+  ["x, y, z, of length 1"] = "number x, number y, number z",
+  ["the least and the greatest angle; nil if the pair is not visible and opposed at `angle`"] = "number? least, number? greatest",
+  ["a table that prints as its description"] = "table",
   ["three numbers"] = "number, number, number", ["theta, a"] = "number theta, number a" }
 
 --- The type of what an operation gives, read from its words.
@@ -62,6 +75,7 @@ local function result_type(words)
   kind = words:match "^an? (%a+)"
   if objects[kind] then return objects[kind] end
   if words:match "^true" then return "boolean" end
+  if words:match "^a table" then return "table" end
   if words:match "^a list" then return "table" end
   if words:match "^'" then return "string" end
   for _, start in ipairs { "a number", "a whole number", "the number", "text", "16 hexadecimal" } do

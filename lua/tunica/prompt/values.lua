@@ -73,6 +73,16 @@ end
 
 local brief_items = 8
 
+--- Whether a table has more entries beyond its list than are worth sorting for one line.
+local function is_huge(value)
+  local left = 1000 + #value
+  for _ in next, value do
+    left = left - 1
+    if left < 0 then return true end
+  end
+  return false
+end
+
 --- Items of a table within braces, no more than a few.
 local function brief_table(value, depth)
   if depth > 2 then return "{ ... }" end
@@ -82,7 +92,9 @@ local function brief_table(value, depth)
     listed = i
   end
   local more = #value > listed
-  if not more then
+  if not more and is_huge(value) then
+    parts[#parts + 1] = "..."
+  elseif not more then
     for key, item in pairs(value) do
       local in_list = type(key) == "number" and key >= 1 and key <= listed and key == math.floor(key)
       if not in_list then
