@@ -116,7 +116,7 @@ void install(int number, void (*handler)(int), struct sigaction* old) {
 
 }  // namespace
 
-Interrupts::Interrupts(lua_State* L) : watchdog_(std::make_unique<Watchdog>()) {
+Interrupts::Interrupts(lua_State* L) : lua_(L), watchdog_(std::make_unique<Watchdog>()) {
   pending = 0;
   state = L;
   flag = &lua::host(L).cancel;
@@ -130,7 +130,7 @@ Interrupts::~Interrupts() {
   for (size_t i = 0; i < stopping.size(); ++i) sigaction(stopping[i], &before[i], nullptr);
   set_alarm(0);
   sigaction(SIGALRM, &before_alarm, nullptr);
-  lua::host(state).rescue = nullptr;
+  lua::host(lua_).rescue = nullptr;
   state = nullptr;
   flag = nullptr;
   watchdog = nullptr;

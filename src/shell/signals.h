@@ -36,6 +36,7 @@ class Interrupts {
   void interactive(bool on);
 
  private:
+  lua_State* lua_;
   std::unique_ptr<Watchdog> watchdog_;
 };
 
