@@ -854,7 +854,7 @@ function contour:scaled(factor) end
 function contour:reversed() end
 
 ---The points as text, as tunica.contour reads them: to stand in a parameter or on the command line.
----@return any # a text
+---@return string # a text
 function contour:text() end
 
 ---Writes the contour as a file of L-Studio (.con). Such files hold cubic curves: straight lines and single arcs of lower degree become the cubic that is the same.
@@ -881,7 +881,7 @@ function curve:integral(from, to) end
 function curve:points() end
 
 ---The points as text, as tunica.curve reads them: to stand in a parameter or on the command line.
----@return any # a text
+---@return string # a text
 function curve:text() end
 
 ---Writes the curve as a file of L-Studio (.func).

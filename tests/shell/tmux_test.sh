@@ -27,7 +27,13 @@ keys '1 + 41' Enter; shows '42'
 keys 'tissue:count_p' Tab; shows 'tissue:count_peaks'
 keys C-u 'run { by = 1 }' Enter; shows 'now at t = 1'
 keys 'while true do end' Enter; sleep 0.3; keys C-c; shows 'interrupted'
-keys 'show()' Enter; sleep 1; keys '"after" .. "wards"' Enter; shows '"afterwards"'
+# The terminal is asked what it can show: keys typed meanwhile would be taken for its answer.
+keys 'show()' Enter
+for _ in $(seq 100); do
+  sleep 0.1
+  [ "$(screen | grep -v '^ *$' | tail -n 1)" = '>' ] && break
+done
+keys '"after" .. "wards"' Enter; shows '"afterwards"'
 screen | grep -q 'error' && { wrong "show() inside tmux:"; screen; }
 # A narrower window: what comes then fits it; a line being typed stays whole.
 keys 'local a_long_name_to_be_typed = "some text that'

@@ -57,6 +57,7 @@ local results = { ["a number"] = "number", ["a whole number"] = "integer", text 
   ["cell, cell or nil at the border"] = "tunica.cell, tunica.cell?",
   ["side, side or nil at the border"] = "tunica.side, tunica.side?", ["junction, junction"] = "tunica.junction, tunica.junction",
   ["x, y"] = "number x, number y", ["its arc length, x, y"] = "number arc, number x, number y",
+  ["a text"] = "string",
   ["what tunica.pattern gives"] = "table",
   ["the angle (degrees), the field there, and whether it is below every threshold"] =
     "number angle, number field, boolean below",
