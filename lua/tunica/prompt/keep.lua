@@ -186,7 +186,6 @@ if folder:sub(1, 1) ~= "/" then folder = os.getenv "HOME" and os.getenv "HOME" .
 local rescued = string.format("%s/tunica/rescued-%d", folder, core.process_id())
 
 local most_entries = 10000  -- of a variable that is rescued
-local next_time, share = 0, 50
 
 local function rescue(begins)
   local model, source = desk.model(), desk.source
@@ -200,13 +199,17 @@ local function rescue(begins)
     note = string.format('The state at t = %.6g is kept: restore "%s"', model.time, rescued) }
 end
 
---- Hands the state at hand to the program, as often as a fiftieth of the time allows.
+local next_line, next_slice = 0, 0
+
+--- Hands the state at hand to the program: before a line unless that takes long, in the middle of a run as often as a fiftieth
+-- of the time allows.
 local function hand_over(begins)
   local now = core.now()
-  if now < next_time then return end
+  if now < (begins and next_line or next_slice) then return end
   pcall(rescue, begins)
   local took = core.now() - now
-  next_time = took < 0.005 and 0 or now + share * took
+  next_line = took < 0.05 and 0 or now + 10 * took
+  next_slice = now + math.max(0.2, 50 * took)
 end
 desk.on_line(function() hand_over(true) end)
 desk.on_slice = hand_over
