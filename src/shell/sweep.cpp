@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "base/cancel.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "shell/exit_codes.h"
@@ -89,9 +90,7 @@ bool run_all(SweepWork& work, const SweepOptions& options, const SweepPlan& plan
   return options.score.empty() || options.shards > 1 || run_winners(work, options);
 }
 
-int run_sweep(SweepOptions& options) {
-  if (options.out.empty()) options.out = stem_of(options.script) + ".db";
-  SweepModel model(options.script);
+int run_plan(SweepModel& model, SweepOptions& options) {
   const SweepPlan plan = make_plan(model, options);
   std::unique_ptr<Scorer> scorer;
   if (!options.score.empty()) scorer = std::make_unique<Scorer>(model.session(), options.score, plan.about);
@@ -116,6 +115,17 @@ int run_sweep(SweepOptions& options) {
   }
   options.files = {options.out};
   return options.quiet ? ok : show_sweep(options);
+}
+
+int run_sweep(SweepOptions& options) {
+  if (options.out.empty()) options.out = stem_of(options.script) + ".db";
+  SweepModel model(options.script);
+  try {
+    return run_plan(model, options);
+  } catch (const Cancelled& stopped) {
+    say_note(stopped.what());
+    return model.session().code_of_stop();
+  }
 }
 
 }  // namespace

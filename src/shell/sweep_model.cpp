@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "base/cancel.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "lua/guard.h"
@@ -104,13 +105,13 @@ int SweepModel::write_result(const char* function, std::optional<double> until, 
   return numerical_failure;
 }
 
-Description SweepModel::describe(const Values& values, std::optional<double> until) {
-  Pool pool(1, {.seconds = 60}, [&](size_t, int descriptor) {
+Description SweepModel::describe(const Values& values, std::optional<double> until, double seconds) {
+  Pool pool(1, {.seconds = seconds}, [&](size_t, int descriptor) {
     return load(values, 1) ? write_result("describe", until, descriptor) : session_.exit_code();
   });
   pool.start(0);
   for (;;) {
-    if (session_.interrupts().signal()) throw UsageError{"interrupted"};
+    if (session_.interrupts().signal()) throw Cancelled();
     const auto outcome = pool.wait(1);
     if (!outcome) continue;
     if (outcome->status == "done") return read_description(outcome->result);

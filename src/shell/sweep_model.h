@@ -30,8 +30,9 @@ class SweepModel {
   /// Name by which `tunica` finds the model again.
   const std::string& given() const { return given_; }
 
-  /// Loads the model in a child, for no more than a minute. Errors: UsageError with what the child said.
-  Description describe(const Values& values, std::optional<double> until);
+  /// Loads the model in a child, within some seconds. Errors: UsageError with what the child said; Cancelled by a
+  /// signal.
+  Description describe(const Values& values, std::optional<double> until, double seconds);
   /// In a child: takes the model to its end and writes its result to the descriptor. Returns an exit code.
   int run(const Values& values, uint64_t seed, std::optional<double> until, int descriptor);
 

@@ -76,6 +76,19 @@ void settle_samples(sweep::Table& table, const SweepOptions& options, const Swee
     table.add_sample({static_cast<int64_t>(i) + 1, name_of(options.sampling), plan.samples[i]});
 }
 
+/// Arguments that can be nothing but fixed values.
+Values plainly_fixed(const std::vector<std::string>& arguments) {
+  Values values;
+  for (const auto& argument : arguments) {
+    const size_t equals = argument.find('=');
+    if (equals == std::string::npos || equals == 0) continue;
+    const std::string text = argument.substr(equals + 1);
+    if (text.find_first_of(",'") == std::string::npos && text.find("..") == std::string::npos)
+      values[argument.substr(0, equals)] = text;
+  }
+  return values;
+}
+
 }  // namespace
 
 Values SweepPlan::values(const sweep::Sample& sample) const {
@@ -86,7 +99,10 @@ Values SweepPlan::values(const sweep::Sample& sample) const {
 
 SweepPlan make_plan(SweepModel& model, const SweepOptions& options) {
   SweepPlan plan;
-  plan.about = model.describe({}, options.until);
+  // What the model is may depend on what is fixed; so it is loaded with that, as far as it can be told before its
+  // parameters are known.
+  const Values plain = plainly_fixed(options.arguments);
+  plan.about = model.describe(plain, options.until, options.time_limit);
   Values fixed;
   bool varies = false;
   try {
@@ -106,9 +122,7 @@ SweepPlan make_plan(SweepModel& model, const SweepOptions& options) {
     throw UsageError{varies ? "how are the ranges to be sampled? Say --grid, --random N, --sobol N or --refine N"
                             : "nothing varies: give a parameter a range (D=3..5) or a list (D=3,4,5), and say --grid, "
                               "--random N, --sobol N or --refine N"};
-  // The model's reports may depend on what is fixed; and what is wrong with these values is said before anything is
-  // run.
-  if (!fixed.empty()) plan.about = model.describe(fixed, options.until);
+  if (fixed.size() > plain.size()) plan.about = model.describe(fixed, options.until, options.time_limit);
   return plan;
 }
 

@@ -174,6 +174,9 @@ Outcome Pool::end(Child& child) {
   if (child.out_of_time && !child.out_of_memory) {
     outcome.status = "time";
     outcome.message = fmt::format("not done after {:g} s", limits_.seconds);
+  } else if (child.result_text.size() >= most_result) {
+    outcome.status = "failed";
+    outcome.message = fmt::format("the report is larger than {} MB", most_result >> 20);
   } else if (!killed && WEXITSTATUS(status) == ok && !child.result_text.empty()) {
     outcome.status = "done";
     outcome.result = std::move(child.result_text);

@@ -80,6 +80,14 @@ const sweep::SampleRow& row_of(const SweepView& view, int64_t number) {
   fail("there is no sample {}; the file has {}", number, view.samples.size());
 }
 
+/// Winners that have no score on fresh seeds.
+size_t failed_winners(const SweepView& view) {
+  std::set<int64_t> winners;
+  for (const auto& run : view.runs)
+    if (run.fresh && !view.score(run.sample, true)) winners.insert(run.sample);
+  return winners.size();
+}
+
 void print_best(const SweepView& view, size_t count) {
   auto list = view.ranking(true);
   const bool fresh = !list.empty();
@@ -100,6 +108,8 @@ void print_best(const SweepView& view, size_t count) {
   }
   print_columns(lines);
   const auto& seeds = view.settings.at(fresh ? "fresh" : "seeds");
+  const size_t lost = fresh ? failed_winners(view) : 0;
+  if (lost > 0) fmt::print("{} more failed, or had no score, on a fresh seed\n", lost);
   fmt::print("\nthe best again: {}\n", view.command(row_of(view, list[0].first), seeds.at(0)));
 }
 
