@@ -43,22 +43,28 @@ int build_grid(lua_State* L) {
 }
 
 int build_cylinder(lua_State* L) {
-  return build(L, [&] { return cylinder(cells_at(L, 1, "'around'"), cells_at(L, 2, "'rows'"), seed_at(L, 3), &host(L).cancel); });
+  return build(L, [&] {
+    return cylinder(cells_at(L, 1, "'around'"), cells_at(L, 2, "'rows'"), seed_at(L, 3), &host(L).cancel);
+  });
 }
 
 int build_squares(lua_State* L) {
-  return build(L, [&] { return squares(cells_at(L, 1, "'columns'"), cells_at(L, 2, "'rows'"), seed_at(L, 3), &host(L).cancel); });
+  return build(L, [&] {
+    return squares(cells_at(L, 1, "'columns'"), cells_at(L, 2, "'rows'"), seed_at(L, 3), &host(L).cancel);
+  });
 }
 
 int build_hexagons(lua_State* L) {
   return build(L, [&] {
-    return hexagons(cells_at(L, 1, "'columns'"), cells_at(L, 2, "'rows'"), check_number(L, 3, "'area'"), seed_at(L, 4), &host(L).cancel);
+    return hexagons(cells_at(L, 1, "'columns'"), cells_at(L, 2, "'rows'"), check_number(L, 3, "'area'"), seed_at(L, 4),
+                    &host(L).cancel);
   });
 }
 
 int build_hexagon_disk(lua_State* L) {
   return build(L, [&] {
-    return hexagon_disk(check_integer(L, 1, "'radius'", 0, 2000), check_number(L, 2, "'area'"), seed_at(L, 3), &host(L).cancel);
+    return hexagon_disk(check_integer(L, 1, "'radius'", 0, 2000), check_number(L, 2, "'area'"), seed_at(L, 3),
+                        &host(L).cancel);
   });
 }
 

@@ -26,8 +26,8 @@ std::string_view field(lua_State* L, int table, const char* name) {
   return text;
 }
 
-/// core.rescue { path =, note =, bytes = } or { path =, note =, sections = }, or core.rescue(): what is to be written if
-/// a function of Lua's own does not return when everything is to stop. The tables must not be changed afterwards.
+/// core.rescue { path =, note =, bytes = } or { path =, note =, sections = }, or core.rescue(): what is to be written
+/// if a function of Lua's own does not return when everything is to stop. The tables must not be changed afterwards.
 int rescue(lua_State* L) {
   return guard(L, [&] {
     lua_settop(L, 1);

@@ -87,7 +87,8 @@ int after_failure(Session& session, const Options& options, const Script& script
     return failed(options, session);
   session.interrupts().calm(true);
   if (!script.path.empty() && script.path != "-" && script.path != code_path)
-    say_note(fmt::format("the prompt has what was defined before; when the script is mended: load \"{}\"", script.path));
+    say_note(
+        fmt::format("the prompt has what was defined before; when the script is mended: load \"{}\"", script.path));
   return start_prompt(session, options, false, true);
 }
 

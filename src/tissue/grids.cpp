@@ -19,8 +19,7 @@ void require_size(int64_t n, int64_t least, const char* what) {
   if (n > 4'000'000) fail("{} must be at most 4000000, not {}", what, n);
 }
 
-Tissue build_grid(int64_t nx, int64_t ny, bool wrap_x, bool wrap_y, uint64_t seed,
-                  const CancelFlag* cancel) {
+Tissue build_grid(int64_t nx, int64_t ny, bool wrap_x, bool wrap_y, uint64_t seed, const CancelFlag* cancel) {
   if (nx * ny > 4'000'000) fail("a grid can have at most 4000000 cells, not {}", nx * ny);
   Tissue tissue(false, seed);
   TissueEditor editor(tissue);

@@ -119,7 +119,8 @@ void check_corner(const Vec3& p, double tolerance, size_t polygon) {
 
 }  // namespace
 
-Tissue polygons(const std::vector<std::vector<Vec3>>& cells, double tolerance, uint64_t seed, const CancelFlag* cancel) {
+Tissue polygons(const std::vector<std::vector<Vec3>>& cells, double tolerance, uint64_t seed,
+                const CancelFlag* cancel) {
   if (!(tolerance > 0) || !std::isfinite(tolerance)) fail("the tolerance must be positive, not {}", tolerance);
   Welder welder(tolerance);
   std::vector<Face> faces;

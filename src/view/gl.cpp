@@ -193,8 +193,8 @@ class Context {
   }
   const char* renderer() const { return renderer_.c_str(); }
 
-  void draw(int width, int height, const Colour& background, const TriangleList& triangles,
-            const CancelFlag* cancel, std::vector<uint8_t>& pixels) {
+  void draw(int width, int height, const Colour& background, const TriangleList& triangles, const CancelFlag* cancel,
+            std::vector<uint8_t>& pixels) {
     const auto solid = static_cast<GLsizei>(triangles.solid.size()), upon = static_cast<GLsizei>(triangles.upon.size());
     const auto bytes = static_cast<GLsizeiptr>(sizeof(Vertex));
     const std::vector<Chunk> chunks = chunks_of(triangles.solid);

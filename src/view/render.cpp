@@ -72,7 +72,8 @@ Picture render(const Scene& scene) {
   const bool cut = scene.camera.zoom != 1 || scene.camera.extent || scene.camera.centre;
   if (cut) clip_to(legend.frame(), triangles);
   legend.add_shapes(triangles.upon);
-  Picture picture{scene.width, scene.height, rasterise(scene.width, scene.height, scene.background, triangles, scene.cancel)};
+  Picture picture{scene.width, scene.height,
+                  rasterise(scene.width, scene.height, scene.background, triangles, scene.cancel)};
   draw_labels(scene, projector, legend.font_size(), cut ? &legend.frame() : nullptr, picture.rgba);
   legend.draw_texts(picture.rgba);
   if (scene.background.a < 1) unpremultiply(picture.rgba);

@@ -64,5 +64,63 @@ TEST_F(PromptTest, ComesAfterAScriptThatFailed) {
   says("kept", "\n6\n");
 }
 
+TEST_F(PromptTest, HelpsWithEveryOperation) {
+  std::ofstream(folder_ / "titles.lua")
+      << "require 'tunica.prompt.names'()\n"
+         "for _, e in ipairs(require 'tunica.registry'.all()) do print(e.title) end\n";
+  const std::string list = (folder_ / "titles.txt").string();
+  ASSERT_EQ(std::system((std::string(TUNICA_PROGRAM) + " " + (folder_ / "titles.lua").string() + " >" + list).c_str()),
+            0);
+  start({"-q", "-i", "patterning/ring"});
+  std::ifstream titles(list);
+  int count = 0;
+  for (std::string title; std::getline(titles, title); ++count) {
+    terminal_->type("?" + title + "\r");
+    ASSERT_TRUE(terminal_->shows("\n" + title)) << title << terminal_->screen().text();
+    ASSERT_TRUE(terminal_->stands_at(">")) << title;
+  }
+  EXPECT_GT(count, 150);
+  EXPECT_EQ(terminal_->screen().text().find("error:"), std::string::npos);
+}
+
+TEST_F(PromptTest, WithstandsWhatIsTyped) {
+  start({"-q"}, {}, 200);
+  says("function f() return f() + 1 end f()", "stack overflow");
+  says("local t = setmetatable({}, {__tostring = function() error 'no' end}) print(#'ok') ans = t", "");
+  says("ans", "a table");
+  says("load = 3", "");
+  says("load 'ring'", "load = nil brings it back");
+  says("load = nil", "");
+  says("load 'ring'", "model, tissue");
+  says("pairs = nil tostring = nil print = nil", "");
+  says("{ 1, x = 2 }", "{ 1, x = 2 }");
+  says("coroutine.wrap(function() run(1) end)()", "");
+  says("model.time", "\n1\n");
+  says("error(setmetatable({}, { __tostring = function() error 'x' end }))", "not text");
+  std::ofstream(folder_ / "half.lua") << "local tunica = require 'tunica'\nlocal t = tunica.ring { 10 }\nlocal m = tun";
+  says("load '" + (folder_ / "half.lua").string() + "'", "half.lua:3");
+  says("model.time", "\n1\n");
+  says("undo()", "back to before");
+  terminal_->type("\x1b[200~w = \"\x1b[31mred\x07\"\x1b[201~\r");
+  EXPECT_TRUE(terminal_->stands_at(">"));
+  says("w", "\\27[31mred\\7");
+  says("x = \"\xff\xfe\" #x", "");
+  says("local long = '" + std::string(3000, 'a') + "'", "");
+  says("#long", "3000");
+}
+
+TEST_F(PromptTest, NeedsNoPlaceForItsHistory) {
+  fs::create_directories(folder_ / "state/tunica/history");  // a folder
+  start({"-q"});
+  says("1 + 1", "\n2\n");
+  terminal_->type("\x04");
+  EXPECT_EQ(terminal_->exit_code(), 0);
+  start({"-q"}, {{"XDG_STATE_HOME", "/proc/nowhere"}});
+  says("1 + 1", "\n2\n");
+  start({"-q"}, {{"XDG_STATE_HOME", ""}, {"HOME", ""}, {"XDG_CONFIG_HOME", ""}});
+  says("1 + 1", "\n2\n");
+  says("load 'ring'", "model, tissue");
+}
+
 }  // namespace
 }  // namespace tunica::shell

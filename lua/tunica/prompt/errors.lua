@@ -192,6 +192,11 @@ function errors.describe(message)
   local out = { screen.paint("red", "error: ") .. text:gsub("[%c\127]", function(c)
     return (c == "\n" or c == "\t") and c or "\\" .. c:byte()
   end) }
+  local called = text:match "attempt to call global '([%w_]+)'"
+  local session = package.loaded["tunica.prompt.session"]
+  if called and session and session.commands()[called] then
+    out[2] = string.format("  a variable hides the command '%s'; %s = nil brings it back", called, called)
+  end
   local about = noted
   noted = nil
   if about and not rawequal(about.message, message) then

@@ -45,10 +45,9 @@ end
 --- A name as an input sees it; and whether there is one.
 function session.lookup(name)
   local value = rawget(names, name)
-  if value ~= nil or declared[name] then return value, true end
-  value = session.commands()[name]
+  if value == nil then value = session.commands()[name] end
   if value == nil then value = rawget(_G, name) end
-  return value, value ~= nil
+  return value, value ~= nil or declared[name] == true
 end
 
 --- Every name that an input can use, sorted.
