@@ -185,11 +185,14 @@ local function rates_of(element, written)
   return setmetatable({}, { __index = written, __newindex = keeper(element, written) })
 end
 
+local function is_inner(e, kind)
+  return kind == "cell" or kind == "side" and e.opposite ~= nil or kind == "wall" and select(2, e:cells()) ~= nil
+end
+
 local function inner_elements(tissue, kind)
   local list = {}
   for e in core.each(tissue, kind) do
-    local inside = kind == "cell" or kind == "side" and e.opposite or kind == "wall" and select(2, e:cells()) ~= nil
-    if inside then list[#list + 1] = e end
+    if is_inner(e, kind) then list[#list + 1] = e end
   end
   return list
 end
@@ -296,10 +299,14 @@ function rules.can_know(rule, tissue) return rule.waits and #inner_elements(tiss
 
 --- Some elements on which to compare a traced rule with direct evaluation: spread over the tissue, the border included.
 local function samples(tissue, kind)
-  local all = inner_elements(tissue, kind)
-  local some, stride = {}, math.max(1, math.floor(#all / 12))
-  for i = 1, #all, stride do some[#some + 1] = all[i] end
-  some[#some + 1] = all[#all]
+  local some, at, due, last = {}, 0, 1, nil
+  local stride = math.max(1, math.floor(core.count(tissue, kind) / 12))
+  for e in core.each(tissue, kind) do
+    at = at + 1
+    if at >= due and is_inner(e, kind) then some[#some + 1], due = e, at + stride end
+    last = e
+  end
+  if last and is_inner(last, kind) then some[#some + 1] = last end
   return some
 end
 

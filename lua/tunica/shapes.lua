@@ -175,6 +175,9 @@ op { name = "tunica.apex", kind = "named", returns = "an apex", source = "thesis
   args = {
     { name = "profile", type = "contour|string|list", default = "dome",
       doc = "the curve that turns around the y axis, from the tip down: a contour, its name or file, or points" },
+    { name = "cap", type = "list", of = "number", count = { 2, 3 },
+      doc = "instead of a profile: { radius, slope }, a part of a sphere down to where it falls by `slope` degrees, and from " ..
+        "there a straight flank; its length, if it matters, is the third (30 radii if left out)" },
     { name = "growth", type = "number|curve|string|list", default = 1, unit = "1 / time",
       doc = "relative elemental growth rate along the profile, by arc length from the tip: a number, a curve, its name or " ..
         "file, or points" } },
@@ -183,8 +186,12 @@ op { name = "tunica.apex", kind = "named", returns = "an apex", source = "thesis
     "a; theta stays, and so does the form of the surface. Beyond its end the profile goes straight on. An apex never changes.",
   fn = function(t)
     local profile, growth = t.profile, t.growth
-    if type(profile) == "string" then uses[profile] = "profile" end
-    if core.shape_kind(profile) ~= "contour" then profile = make_contour(profile) end
+    if t.cap then
+      profile = { t.cap[1], t.cap[2], t.cap[3] or 30 * t.cap[1] }
+    else
+      if type(profile) == "string" then uses[profile] = "profile" end
+      if core.shape_kind(profile) ~= "contour" then profile = make_contour(profile) end
+    end
     if type(growth) == "string" or type(growth) == "table" then growth = make_curve(growth) end
     local apex, least, place = core.new_apex(profile, growth)
     if least then

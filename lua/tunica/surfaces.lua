@@ -19,6 +19,7 @@ end
 
 local function is_surface(value) return value ~= nil and surfaces.core_of(value) ~= nil end
 local function is_bulging(value) return value ~= nil and inside[value] ~= nil and inside[value].bulges == true end
+surfaces.is_bulging = is_bulging
 registry.type("surface", "a surface (tunica.apex, tunica.bulges or tunica.surface)", is_surface, methods)
 registry.type("bulges", "a surface that bulges (tunica.bulges)", is_bulging, bulging)
 

@@ -176,17 +176,21 @@ local tunica = require "tunica"
 local tissue = tunica.sheet { cells = 20, seed = 1 }
 ]]
 
---- Whether the cells have the columns that say where they are on an apex.
-local function has_place(tissue)
+--- Whether the cells have both of these columns.
+local function has_both(tissue, one, other)
   local found = 0
   for _, name in ipairs(core.columns(tissue, "cell")) do
-    if name == "theta" or name == "a" then found = found + 1 end
+    if name == one or name == other then found = found + 1 end
   end
   return found == 2
 end
+local function has_place(tissue) return has_both(tissue, "theta", "a") end
 
-local function relocate(tissue, surface)
+--- Where cells are on an apex and in which primordium, as far as the tissue has columns for it.
+local function relocate(tissue, on)
+  local surface = surfaces.core_of(on)
   if has_place(tissue) and core.is_on_apex(surface) then core.locate(tissue, surface) end
+  if surfaces.is_bulging(on) and has_both(tissue, "primordium", "closeness") then core.differentiate(tissue, surface) end
 end
 
 op { name = "tissue:grow", kind = "named", source = "thesis 3.3, 10.2",
@@ -214,7 +218,7 @@ op { name = "tissue:grow", kind = "named", source = "thesis 3.3, 10.2",
     if t.on then
       local surface = surfaces.core_of(t.on)
       core.grow_on(self, surface, t.time, t.from)
-      relocate(self, surface)
+      relocate(self, t.on)
     elseif t.rate then core.grow_uniform(self, t.time, t.rate, t.centre)
     elseif t.rates then core.grow_anisotropic(self, t.time, t.rates[1], t.rates[2], t.direction, t.centre)
     else core.grow_field(self, t.time, t.velocity, t.from or 0, t.substeps) end
@@ -244,6 +248,23 @@ local apex = tunica.apex { profile = "dome" }
 local tissue = tunica.apex_tissue { on = apex, cells = 20 }
 tissue:locate { on = apex }
 print(tissue:max "a")]] }
+
+op { name = "tissue:differentiate", kind = "named", returns = "the tissue", source = "thesis (5.10), (5.11)",
+  args = { { name = "on", type = "bulges", required = true, position = 1, doc = "the surface with primordia that the tissue lies on" } },
+  doc = "Gives the cells columns `primordium` (number of the one in which the centroid lies most deeply, 0 outside all) and " ..
+    "`closeness` (1 - d/r: 1 at the centre of that primordium, 0 at its rim and outside). tissue:grow and tissue:divide with " ..
+    "the same `on` keep them up to date; call it again when a primordium has been added.",
+  fn = function(self, t)
+    core.differentiate(self, surfaces.core_of(t.on))
+    return self
+  end,
+  example = [[
+local tunica = require "tunica"
+local surface = tunica.bulges { on = tunica.apex { profile = "dome" }, radius = 0.3, height = 0 }
+local tissue = tunica.apex_tissue { on = surface, cells = 20 }
+surface:add { theta = 0, a = 0.2 }
+tissue:differentiate { on = surface }
+print(tissue:max "closeness")]] }
 
 -- How walls are laid: the same for one cell and for all.
 local function division_options(others)
@@ -280,7 +301,7 @@ op { name = "tissue:divide", kind = "named", returns = "the number of divisions"
     local surface = t.on and surfaces.core_of(t.on)
     local done, divisions = pcall(core.divide_cells, self, t.above, t.variation, t.where, t.max_cells, rule_of(t), t.direction,
       t.gap, t.pinch, surface)
-    if surface then relocate(self, surface) end
+    if surface and (not done or divisions > 0) then relocate(self, t.on) end
     if not done then error(divisions, 0) end  -- others were divided
     return divisions
   end,
@@ -318,6 +339,33 @@ op { name = "tissue:checkerboard", args = { column }, fn = core.checkerboard,
   doc = "How far values go up and down from cell to cell: 1 for a checkerboard on a grid (at most 0.5 on hexagons), 0.2 to 0.7 for " ..
     "noise, negative for anything smooth. Beyond noise it says that a time step was too long, most likely.",
   example = setup .. "print(tissue:checkerboard 'auxin')" }
+op { name = "tissue:pair", kind = "named", returns = "two cells, the one with more first; or nothing", source = "thesis 5.5.1",
+  args = { { name = "column", type = "column", required = true, position = 1, doc = "name of a column of the cells" },
+    { name = "above", type = "number", required = true, position = 2, doc = "both cells have more than this" },
+    { name = "where", type = "table", default = {}, doc = "conditions on both cells: { column = value } or { column = { low, high } }" } },
+  doc = "Two neighbours that both have more than a threshold: where a primordium starts. Of several such pairs the one whose " ..
+    "lower value is highest.",
+  fn = function(self, t)
+    local names, bounds = {}, {}
+    for name in pairs(t.where) do
+      if type(name) ~= "string" then fail("tissue:pair: 'where' holds conditions by name of a column, came %s", core.describe(name)) end
+      names[#names + 1] = name
+    end
+    table.sort(names)
+    for _, name in ipairs(names) do
+      local given = t.where[name]
+      local low, high = given, given
+      if type(given) == "table" then low, high = given[1], given[2] end
+      if type(low) ~= "number" or type(high) ~= "number" or not (low <= high) then
+        fail("tissue:pair: the condition on '%s' must be a number, or { low, high } with low <= high, came %s", name, core.describe(given))
+      end
+      bounds[#bounds + 1], bounds[#bounds + 2], bounds[#bounds + 3] = name, low, high
+    end
+    return core.find_pair(self, t.column, t.above, bounds)
+  end,
+  example = setup .. [[
+local a, b = tissue:pair { "auxin", above = 1, where = { x = { 0, 2 } } }
+print(a, b)]] }
 op { name = "tissue:peaks", args = { column, above }, fn = core.peaks,
   returns = "a list of cells, the mean distance from a peak to the next (0 without geometry), its coefficient of variation",
   doc = "The cells that have more than each of their neighbours, and more than `above`.",

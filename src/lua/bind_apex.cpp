@@ -8,14 +8,26 @@
 namespace tunica::lua {
 namespace {
 
-/// new_apex(contour, growth: curve or number) -> apex, the least rate of growth, and where it is; the last two only if
-/// the rate is negative somewhere
+/// The profile at `at`: a contour, or a list { radius of a cap, its slope at the end in degrees, length }.
+Profile profile_at(lua_State* L, int at) {
+  if (lua_type(L, at) != LUA_TTABLE) return Profile(contour_at(L, at).spline);
+  double cap[3];
+  for (int i = 0; i < 3; ++i) {
+    lua_rawgeti(L, at, i + 1);
+    cap[i] = lua_tonumber(L, -1);
+    lua_pop(L, 1);
+  }
+  return Profile::cap(cap[0], cap[1] * M_PI / 180, cap[2]);
+}
+
+/// new_apex(contour or cap, growth: curve or number) -> apex, the least rate of growth, and where it is; the last two only
+/// if the rate is negative somewhere
 int new_apex(lua_State* L) {
   return guard(L, [&] {
-    const BSpline& spline = contour_at(L, 1).spline;
+    Profile profile = profile_at(L, 1);
     Curve growth =
         lua_type(L, 2) == LUA_TNUMBER ? Curve::constant(check_number(L, 2, "'growth'")) : curve_at(L, 2).curve;
-    push_apex(L, Apex(Profile(spline), std::move(growth)));
+    push_apex(L, Apex(std::move(profile), std::move(growth)));
     const Apex& apex = apex_at(L, -1);
     if (!apex.shrinks()) return 1;
     lua_pushnumber(L, apex.growth().least());

@@ -175,6 +175,25 @@ int checkerboard_of(lua_State* L) {
   });
 }
 
+/// find_pair(tissue, column, above, flat list of column, low, high) -> the two cells, or nothing
+int find_pair_of_cells(lua_State* L) {
+  return guard(L, [&] {
+    const Tissue& tissue = tissue_at(L, 1);
+    const std::string column = check_string(L, 2, "'column'");
+    std::vector<Within> bounds;
+    for (int i = 1; i + 2 <= static_cast<int>(lua_objlen(L, 4)); i += 3) {
+      for (int k = 0; k < 3; ++k) lua_rawgeti(L, 4, i + k);
+      bounds.push_back({check_string(L, -3, "a column"), check_number(L, -2, "a bound"), check_number(L, -1, "a bound")});
+      lua_pop(L, 3);
+    }
+    const Pair pair = find_pair(tissue, column, check_number(L, 3, "'above'"), bounds);
+    if (pair.first == none) return 0;
+    push_element(L, 1, Kind::cell, pair.first);
+    push_element(L, 1, Kind::cell, pair.second);
+    return 2;
+  });
+}
+
 int count_peaks(lua_State* L) {
   return guard(L, [&] {
     lua_settop(L, 3);
@@ -212,6 +231,7 @@ int load_tissue(lua_State* L) {
 void register_growth(lua_State* L) {
   const luaL_Reg functions[] = {{"grow_uniform", grow_uniform}, {"grow_anisotropic", grow_anisotropic},
                                 {"grow_field", grow_field},     {"deform", deform},
+                                {"find_pair", find_pair_of_cells},
                                 {"statistics", statistics},     {"peaks", peaks},
                                 {"count_peaks", count_peaks},   {"checkerboard", checkerboard_of},
                                 {"load_tissue", load_tissue},   {nullptr, nullptr}};

@@ -160,6 +160,10 @@ int make_bulges(lua_State* L) {
         of_age[i] = [value = check_number(L, 2 + i, i == 0 ? "'radius'" : "'height'")](double) { return value; };
         continue;
       }
+      if (const char* kind = shape_kind(L, 2 + i); kind && std::string_view(kind) == "curve") {
+        of_age[i] = [curve = curve_at(L, 2 + i).curve](double age) { return curve(age); };
+        continue;
+      }
       if (!lua_isfunction(L, 2 + i) && !luaL_getmetafield(L, 2 + i, "__call"))
         fail("'{}' must be a number, or a curve or function of age, came {}", i == 0 ? "radius" : "height",
              describe(L, 2 + i));
@@ -279,6 +283,15 @@ int bump_at(lua_State* L) {
   });
 }
 
+/// differentiate(tissue, surface)
+int differentiate_cells(lua_State* L) {
+  return guard(L, [&] {
+    const Entering entering(L);
+    differentiate(tissue_at(L, 1), bulges_at(L, 2));
+    return 0;
+  });
+}
+
 /// surface_closest(surface, x, y, z) -> x, y, z
 int surface_closest(lua_State* L) {
   return guard(L, [&] {
@@ -383,6 +396,7 @@ void register_surfaces(lua_State* L) {
                                 {"surface_closest", surface_closest},
                                 {"surface_normal", surface_normal},
                                 {"surface_advance", surface_advance},
+                                {"differentiate", differentiate_cells},
                                 {"grow_on", grow_on},
                                 {"remove_cells", remove_where},
                                 {nullptr, nullptr}};

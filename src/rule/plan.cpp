@@ -140,7 +140,10 @@ class Planner {
       }
     }
     for (const Output& output : outputs_) {
-      if (output.column >= 0) continue;
+      if (output.column >= 0) {  // written in the last pass, and read in an earlier one
+        if (computed(output.value) && level(output.value) < last_) keep(output.value);
+        continue;
+      }
       graph_[output.value].domain == Domain::side ? edge_root(output.value) : keep(output.value);
     }
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "shape/apex_tables.h"
 
 namespace tunica {
 
@@ -13,6 +14,11 @@ constexpr double path_tolerance = 1e-9;
 constexpr size_t most_steps = 1u << 16;  ///< of a path; where the profile has a corner, finer ones gain little
 
 }  // namespace
+
+Apex::Apex(Profile profile, Curve growth)
+    : profile_(std::make_shared<const Profile>(std::move(profile))),
+      flow_(std::make_shared<const Flow>(std::move(growth))),
+      tables_(std::make_shared<ApexTables>()) {}
 
 Vec3 Apex::position(double theta, double a) const {
   if (!std::isfinite(theta)) fail("the angle of a place must be finite, not {}", theta);
@@ -33,15 +39,38 @@ Vec3 Apex::normal(const Place& place) const {
   return {-along.y() * std::cos(place.theta), along.x(), -along.y() * std::sin(place.theta)};
 }
 
-Vec3 Apex::advance(const Vec3& p, double, double dt) const {
-  const Place place = place_of(p);
-  return position(place.theta, after(place.a, dt));
+Vec3 Apex::normal(const Vec3& p) const {
+  const double r = std::sqrt(p.x() * p.x() + p.z() * p.z()), a = arc_of(p);
+  if (!profile_->has_hole() && a <= 1e-12 * profile_->length()) return Vec3::UnitY();
+  if (!(r > 0)) return normal(Place{0, a});
+  const ApexTables& tables = tables_->ready(*profile_, *flow_);
+  const Vec2 along = tables.at(a) ? tables.tangent(a) : profile_->tangent(a);
+  return {-along.y() * (p.x() / r), along.x(), -along.y() * (p.z() / r)};
 }
 
-Vec3 Apex::closest(const Vec3& p) const {
-  const Place place = place_of(p);
-  return position(place.theta, place.a);
+double Apex::arc_of(const Vec3& p) const {
+  if (!p.allFinite()) return place_of(p).a;  // which says so
+  const Vec2 flat(std::sqrt(p.x() * p.x() + p.z() * p.z()), p.y());
+  if (const auto a = tables_->ready(*profile_, *flow_).nearest(flat)) return *a;
+  return place_of(p).a;
 }
+
+/// The point of the surface at an arc length, in the direction of p from the axis.
+Vec3 Apex::in_direction_of(const Vec3& p, double a) const {
+  const double r = std::sqrt(p.x() * p.x() + p.z() * p.z());
+  const auto known = tables_->ready(*profile_, *flow_).at(a);
+  const Vec2 q = known ? *known : profile_->at(a);
+  if (!(r > 0)) return {q.x(), q.y(), 0};
+  return {q.x() * (p.x() / r), q.y(), q.x() * (p.z() / r)};
+}
+
+Vec3 Apex::advance(const Vec3& p, double, double dt) const {
+  const double a = arc_of(p);
+  const auto there = tables_->ready(*profile_, *flow_).after(a, dt);
+  return in_direction_of(p, there ? *there : after(a, dt));
+}
+
+Vec3 Apex::closest(const Vec3& p) const { return in_direction_of(p, arc_of(p)); }
 
 Path Apex::path(double a0, double oldest) const { return {*this, a0, oldest}; }
 

@@ -9,6 +9,7 @@
 
 namespace tunica {
 
+class ApexTables;
 class Path;
 
 /// A shoot apex (thesis 3.3): a surface of revolution around the y axis with the tip at the top, growing along its
@@ -21,9 +22,7 @@ class Apex : public Surface {
     double theta, a;  ///< theta in (-pi, pi]; 0 on the axis
   };
 
-  Apex(Profile profile, Curve growth)
-      : profile_(std::make_shared<const Profile>(std::move(profile))),
-        flow_(std::make_shared<const Flow>(std::move(growth))) {}
+  Apex(Profile profile, Curve growth);
 
   const Profile& profile() const { return *profile_; }
   const Curve& growth() const { return flow_->rate(); }
@@ -41,17 +40,23 @@ class Apex : public Surface {
   /// The outward unit normal at a place; at the tip along the axis.
   Vec3 normal(const Place& place) const;
 
+  // For points of tissues: what many ask is read from tables, made when first asked, that agree with the above to 1e-11
+  // (relative to the size of the profile, and to a); where they do not serve, the same is found the longer way.
   Vec3 advance(const Vec3& p, double t, double dt) const override;
   Vec3 closest(const Vec3& p) const override;
-  Vec3 normal(const Vec3& p) const override { return normal(place_of(p)); }
+  Vec3 normal(const Vec3& p) const override;
+  /// As place_of(p).a.
+  double arc_of(const Vec3& p) const;
 
   /// The way of what is at a0 at age 0. @param oldest  ages up to this one are tabulated. Errors: as after(), and an
   /// oldest age that is not positive.
   Path path(double a0, double oldest) const;
 
  private:
+  Vec3 in_direction_of(const Vec3& p, double a) const;
   std::shared_ptr<const Profile> profile_;
   std::shared_ptr<const Flow> flow_;
+  std::shared_ptr<ApexTables> tables_;
 };
 
 /// The place by age of what moves along an apex, from a table: Hermite cubics in equal steps of age, with an error of

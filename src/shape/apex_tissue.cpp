@@ -64,7 +64,7 @@ std::pair<double, double> front(const Tissue& tissue, const Apex& apex) {
   double nearest = INFINITY, farthest = 0;
   for (Index s = 0; s < tissue.sides(); ++s) {
     if (tissue.opposite(s) != none) continue;
-    const double a = apex.place_of(tissue.position(tissue.start(s))).a;
+    const double a = apex.arc_of(tissue.position(tissue.start(s)));
     nearest = std::min(nearest, a);
     farthest = std::max(farthest, a);
   }
@@ -117,9 +117,10 @@ Column& place_column(Tissue& tissue, const char* name) {
 }
 
 void locate(Column& theta, Column& a, const Tissue& tissue, Index cell, const Apex& apex) {
-  const Apex::Place place = apex.place_of(tissue.centroid(cell));
-  theta.values[static_cast<size_t>(cell)] = place.theta * 180 / std::numbers::pi;
-  a.values[static_cast<size_t>(cell)] = place.a;
+  const Vec3 p = tissue.centroid(cell);
+  const bool on_axis = p.x() == 0 && p.z() == 0;
+  theta.values[static_cast<size_t>(cell)] = on_axis ? 0 : std::atan2(p.z(), p.x()) * 180 / std::numbers::pi;
+  a.values[static_cast<size_t>(cell)] = apex.arc_of(p);
 }
 
 }  // namespace
@@ -141,7 +142,7 @@ int64_t remove_beyond(Tissue& tissue, const Apex& apex, double a) {
   if (!tissue.has_geometry()) fail("cells without geometry have no place on an apex");
   std::vector<Id> gone;
   for (Index c = 0; c < tissue.cells(); ++c)
-    if (apex.place_of(tissue.centroid(c)).a > a) gone.push_back(tissue.id(Kind::cell, c));
+    if (apex.arc_of(tissue.centroid(c)) > a) gone.push_back(tissue.id(Kind::cell, c));
   const auto count = static_cast<int64_t>(gone.size());
   remove_cells(tissue, std::move(gone));
   return count;

@@ -41,14 +41,15 @@ void Bulges::set_time(double t) {
 }
 
 Bulges::State Bulges::state_at(double t) const {
-  State state{t, {}};
+  State state{t, {}, true};
   for (size_t i = 0; i < primordia_.size(); ++i) {
     const double age = t - primordia_[i].birth;
     if (!(age >= 0)) continue;
     const double radius = radius_(age), height = height_(age);
     if (!(radius >= 0 && height >= 0) || !std::isfinite(radius) || !std::isfinite(height))
       fail("radius and height of a primordium must be 0 or more; at age {} they are {} and {}", age, radius, height);
-    if (radius > 0 && height > 0)
+    state.flat = state.flat && !(radius > 0 && height > 0);
+    if (radius > 0)
       state.bumps.push_back({i, base_->advance(primordia_[i].place, primordia_[i].birth, age), radius, height});
   }
   return state;
@@ -85,26 +86,29 @@ double Bulges::height(const State& state, const Vec3& base_point, Vec3* gradient
 }
 
 Vec3 Bulges::lifted(const State& state, const Vec3& base_point) const {
-  const double h = height(state, base_point);
+  const double h = state.flat ? 0 : height(state, base_point);
   return h > 0 ? Vec3(base_point + h * base_->normal(base_point)) : base_point;
 }
 
 Vec3 Bulges::advance(const Vec3& p, double t, double dt) const {
   // The later state is asked for first: asking for it may not push the earlier one out.
+  const State& later = cached(t + dt);
+  if (later.flat && cached(t).flat) return base_->advance(p, t, dt);
   const Vec3 moved = base_->advance(base_->closest(p), t, dt);
   return lifted(cached(t + dt), moved);
 }
 
 const Bulges::Bump* Bulges::bump_at(const Vec3& p, double* fraction) const {
-  const Vec3 b = base_->closest(p);
+  const Vec3 b = now_.flat ? p : base_->closest(p);
   const Bump* found = nullptr;
   double least = 1;
   for (const Bump& bump : now_.bumps) {
-    const double here = (b - bump.centre).norm() / bump.radius;
+    const double here = (b - bump.centre).squaredNorm() / (bump.radius * bump.radius);
     if (here >= least) continue;
     least = here;
     found = &bump;
   }
+  least = std::sqrt(least);
   if (found && fraction) *fraction = least;
   return found;
 }
@@ -142,7 +146,7 @@ struct Bulges::Chart {
 double Bulges::scale_at(const Vec3& base_point) const {
   double scale = 0;
   for (const Bump& bump : now_.bumps)
-    if ((base_point - bump.centre).norm() < 1.5 * bump.radius && (scale == 0 || bump.radius < scale))
+    if (bump.height > 0 && (base_point - bump.centre).norm() < 1.5 * bump.radius && (scale == 0 || bump.radius < scale))
       scale = bump.radius;
   return scale;
 }
@@ -195,7 +199,7 @@ Vec3 Bulges::base_of_closest(const Vec3& p) const {
   const double scale = scale_at(best);
   if (scale > 0 && least > 1e-9 * scale) offer(best, scale);
   for (const Bump& bump : now_.bumps)
-    if (least > 1e-9 * bump.radius && (p - bump.centre).norm() - bump.radius - 1.5 * bump.height < least)
+    if (bump.height > 0 && least > 1e-9 * bump.radius && (p - bump.centre).norm() - bump.radius - 1.5 * bump.height < least)
       offer(bump.centre, bump.radius);
   return best;
 }
@@ -222,6 +226,23 @@ void grow(Tissue& tissue, Bulges& surface, double dt) {
   } catch (...) {
     surface.set_time(before);
     throw;
+  }
+}
+
+void differentiate(Tissue& tissue, const Bulges& surface) {
+  if (!tissue.has_geometry()) fail("cells without geometry are in no primordium");
+  const auto column = [&](const char* name) -> Column& {
+    if (Column* there = tissue.find_column(Kind::cell, name)) return *there;
+    Column made;
+    made.name = name;
+    return tissue.add_column(Kind::cell, std::move(made));
+  };
+  Column &primordium = column("primordium"), &closeness = column("closeness");
+  for (Index c = 0; c < tissue.cells(); ++c) {
+    double fraction = 1;
+    const Bulges::Bump* bump = surface.bump_at(tissue.centroid(c), &fraction);
+    primordium.values[static_cast<size_t>(c)] = bump ? static_cast<double>(bump->which + 1) : 0;
+    closeness.values[static_cast<size_t>(c)] = bump ? 1 - fraction : 0;
   }
 }
 

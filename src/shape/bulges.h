@@ -46,7 +46,7 @@ class Bulges : public Surface {
   /// Errors: not finite; a radius or height that is negative or not finite; what the functions throw.
   void set_time(double t);
   double time() const { return now_.time; }
-  /// Those born by now whose radius and height are not 0.
+  /// Those born by now whose radius is not 0.
   const std::vector<Bump>& bumps() const { return now_.bumps; }
 
   Vec3 advance(const Vec3& p, double t, double dt) const override;
@@ -69,6 +69,7 @@ class Bulges : public Surface {
   struct State {
     double time = 0;
     std::vector<Bump> bumps;
+    bool flat = true;  ///< no height anywhere: the surface is its base, and primordia are only places on it
   };
   struct Chart;
   State state_at(double t) const;
@@ -90,5 +91,10 @@ class Bulges : public Surface {
 /// grow() for a surface that bulges, from its time() on; its time is then later by dt. If that fails the tissue and the
 /// surface stay as they were.
 void grow(Tissue& tissue, Bulges& surface, double dt);
+
+/// Adds columns `primordium` (number of the one in which the centroid lies most deeply, from 1; 0: outside all) and
+/// `closeness` (1 at its centre to 0 at its rim and outside: 1 - d/r of 5.10, 5.11) to the cells where they are missing,
+/// and sets them. Errors: no geometry.
+void differentiate(Tissue& tissue, const Bulges& surface);
 
 }  // namespace tunica

@@ -166,6 +166,13 @@ double Flow::move_near(const Reach& reach, double zero, double side, double a, d
   return move_by_table(reach, edge, dt - near.time(s, reach.margin));
 }
 
+double Flow::time(double a) const {
+  const auto& nodes = reaches_[0].nodes;
+  const auto after =
+      std::upper_bound(nodes.begin() + 1, nodes.end() - 1, a, [](double x, const Node& n) { return x < n.a; });
+  return (after - 1)->time + time_between((after - 1)->a, a);
+}
+
 double Flow::move_by_table(const Reach& reach, double a, double dt) const {
   const auto& nodes = reach.nodes;
   const auto after =

@@ -18,6 +18,13 @@ class Flow {
   /// finite or negative; dt not finite; a place beyond all numbers.
   double after(double a, double dt) const;
 
+  /// Whether all that is at a > 0 moves away from the tip, so that time() holds.
+  bool spreads() const { return last_ > 0 && reaches_.size() == 1 && reaches_[0].sign > 0 && reaches_[0].nodes.size() > 1; }
+  double near() const { return reaches_[0].nodes.front().a; }  ///< a place close to the tip, from which time() counts
+  double last() const { return last_; }  ///< from here on the rate is constant
+  /// How long it takes from near() to a place between there and last(). Only where growth spreads().
+  double time(double a) const;
+
  private:
   struct Node {
     double a, time;  ///< time from the first node, counted positive
@@ -48,7 +55,7 @@ class Flow {
   double move_by_table(const Reach& reach, double a, double dt) const;
 
   Curve rate_;
-  double last_ = 0;     ///< from here on the rate is constant
+  double last_ = 0;
   double fastest_ = 0;  ///< largest |v| up to there
   std::vector<Reach> reaches_;
 };

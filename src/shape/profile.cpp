@@ -100,6 +100,13 @@ Vec2 Profile::tangent(double a) const {
   return arc_.direction(a > 0 ? arc_.parameter(a) : arc_.begin());
 }
 
+std::vector<double> Profile::breaks() const {
+  std::vector<double> result;
+  for (const auto& panel : arc_.panels())
+    if (result.empty() || panel.a > result.back()) result.push_back(panel.a);
+  return result;
+}
+
 double Profile::area(double a) const {
   if (!(a > 0)) return 0;
   if (a >= length()) {

@@ -30,6 +30,8 @@ class Profile {
   /// The a of the point nearest to p, the smallest of several.
   double closest(const Vec2& p) const;
 
+  /// Arc lengths from 0 to length(): between two of them the profile is smooth.
+  std::vector<double> breaks() const;
   double hole() const { return start_.x(); }  ///< radius of the hole at the tip; 0: none
   bool has_hole() const { return hole() > 0; }
   double widest() const { return widest_; }  ///< largest x on the curve, its continuation not counted

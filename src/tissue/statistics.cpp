@@ -141,6 +141,35 @@ Peaks find_peaks(const Tissue& tissue, std::string_view name, double above) {
   return peaks;
 }
 
+Pair find_pair(const Tissue& tissue, std::string_view column, double above, const std::vector<Within>& bounds) {
+  const double* value = cell_column(tissue, column).values.data();
+  std::vector<const double*> bounded;
+  for (const Within& each : bounds) bounded.push_back(cell_column(tissue, each.column).values.data());
+  const auto fits = [&](Index c) {
+    if (!(value[c] > above)) return false;
+    for (size_t i = 0; i < bounds.size(); ++i)
+      if (!(bounded[i][c] >= bounds[i].low && bounded[i][c] <= bounds[i].high)) return false;
+    return true;
+  };
+  Pair best{none, none};
+  const auto ids = [&](const Pair& p) {
+    return std::minmax({tissue.id(Kind::cell, p.first), tissue.id(Kind::cell, p.second)});
+  };
+  for (Index cell = 0; cell < tissue.cells(); ++cell) {
+    if (!fits(cell)) continue;
+    for (const Index other : tissue.neighbours(cell)) {
+      const bool ahead = value[cell] > value[other] ||
+                         (value[cell] == value[other] && tissue.id(Kind::cell, cell) < tissue.id(Kind::cell, other));
+      if (!ahead || !fits(other)) continue;
+      const Pair pair{cell, other};
+      if (best.first == none || value[other] > value[best.second] ||
+          (value[other] == value[best.second] && ids(pair) < ids(best)))
+        best = pair;
+    }
+  }
+  return best;
+}
+
 double checkerboard_index(const Tissue& tissue, const double* values) {
   std::vector<double> sum(tissue.cells(), 0.0), u(tissue.cells(), 0.0);
   std::vector<int> count(tissue.cells(), 0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "tissue/tissue.h"
@@ -39,6 +40,19 @@ struct Peaks {
 /// mean). A value that is not a number is no peak and spoils none: it is ignored. Errors: unknown column.
 Peaks find_peaks(const Tissue& tissue, std::string_view column);
 Peaks find_peaks(const Tissue& tissue, std::string_view column, double above);
+
+/// A condition on cells: the value of a column lies between two bounds, both included.
+struct Within {
+  std::string column;
+  double low, high;
+};
+/// Two cells that share a wall, both with a value above `above` and within all bounds.
+struct Pair {
+  Index first, second;
+};
+/// Of all such pairs the one whose lower value is highest (of equal ones that of the least identities), the cell with the
+/// higher value first; indices are none if there is no pair. Thesis 5.5.1. Errors: unknown column.
+Pair find_pair(const Tissue& tissue, std::string_view column, double above, const std::vector<Within>& bounds);
 
 /// How far neighbouring cells alternate, -1 .. 1: with u = a cell's value minus the mean of its neighbours',
 /// -2 sum u_a u_b / sum (u_a^2 + u_b^2) over the walls between two cells. 1 for a checkerboard on a grid (0.5 is the

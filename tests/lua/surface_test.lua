@@ -157,7 +157,7 @@ local function expect_places(tissue)
   for c in tissue:cells() do
     local theta, a = apex:closest(c.x, c.y, c.z)
     check.near(c.theta, theta, 1e-12)
-    check.near(c.a, a, 1e-12)
+    check.near(c.a, a, 1e-10)  -- from a table
   end
 end
 tissue = tunica.apex_tissue { on = apex, to = 1, max_area = 0.05, seed = 2 }
@@ -225,3 +225,49 @@ check.fails(function() tunica.apex_tissue { on = apex, to = 1, cells = 3 } end, 
 check.fails(function() tunica.apex_tissue { on = tunica.apex { profile = "cylinder" }, to = 1 } end, "hole")
 check.fails(function() tunica.apex_tissue { on = tunica.apex { growth = 0 }, to = 1 } end, "does not grow")
 check.fails(function() tunica.apex_tissue { on = sphere, to = 1 } end, "apex")
+
+-- Two neighbours above a threshold, and the primordium that starts between them.
+do
+  local apex = tunica.apex { cap = { 1.5, 75 }, growth = 0.2 }
+  check.near(select(2, apex:profile(0.3)), 1.5 * (math.cos(0.2) - 1), 1e-12)
+  check.fails(function() tunica.apex { cap = { 1.5, 95 } } end, "at most 90 degrees")
+  check.fails(function() tunica.apex { cap = { 0, 75 } } end, "must be positive")
+  local tissue = tunica.apex_tissue { on = apex, cells = 40, max_area = 0.1 }
+  tissue:cell { auxin = function(c) return c.id end }
+  tissue:locate { on = apex }
+  local a, b = tissue:pair("auxin", 0)
+  local most = 0
+  for c in tissue:cells() do
+    for n in c:neighbours() do most = math.max(most, math.min(c.auxin, n.auxin)) end
+  end
+  check.equal(b.auxin, most)
+  assert(a.auxin > b.auxin)
+  check.equal(tissue:pair("auxin", 1e6), nil)
+  local c, d = tissue:pair { "auxin", above = 3, where = { a = { 0, 0.4 } } }
+  assert(c.a <= 0.4 and d.a <= 0.4)
+  check.equal(tissue:pair { "auxin", above = 3, where = { auxin = 5 } }, nil)  -- one cell only
+  check.fails(function() tissue:pair { "auxin", above = 3, where = { b = 1 } } end, "no.*column.*b")
+  check.fails(function() tissue:pair { "auxin", above = 3, where = { a = { 1, 0 } } } end, "low <= high")
+  check.fails(function() tissue:pair { "auxin", above = 3, where = { 1 } } end, "by name")
+  check.fails(function() tissue:pair { "auxn", above = 3 } end, "auxin")
+
+  local surface = tunica.bulges { on = apex, radius = tunica.curve { { 0, 0.2 }, { 1, 0.5 }, degree = 1 }, height = 0 }
+  check.fails(function() tissue:differentiate { on = apex } end, "bulges")
+  surface:add { place = { (a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2 } }
+  tissue:differentiate { on = surface }
+  local function members()
+    local n = 0
+    for each in tissue:cells() do
+      if each.primordium == 1 then n = n + 1 end
+      assert((each.primordium == 1) == (each.closeness > 0))
+    end
+    return n
+  end
+  local young = members()
+  assert(young > 0)
+  tissue:grow { on = surface, time = 1 }  -- which keeps them up to date
+  assert(members() > young)
+  tissue:divide { above = 0.05, on = surface }
+  assert(members() > young)
+  check.valid(tissue)
+end

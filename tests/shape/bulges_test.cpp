@@ -26,7 +26,8 @@ Bulges with_three(double rate = .01) {
 
 TEST(Bulges, LiftsAlongTheNormal) {
   Bulges surface = with_three();
-  EXPECT_EQ(surface.bumps().size(), 0u);  // heights are 0 at birth
+  ASSERT_EQ(surface.bumps().size(), 2u);
+  EXPECT_EQ(surface.bumps()[0].height, 0);  // at birth
   surface.set_time(50);
   ASSERT_EQ(surface.bumps().size(), 3u);
   EXPECT_EQ(surface.bumps()[2].which, 2u);
@@ -125,6 +126,40 @@ TEST(Bulges, Errors) {
   EXPECT_ERROR(grow(tissue, wrong, 2), "0 or more");
   EXPECT_EQ(wrong.time(), 0);
   EXPECT_EQ(tissue.hash(), before);
+}
+
+/// Without height a primordium is only a place: the surface is its base, and distances are those in space.
+TEST(Bulges, WithoutHeightArePlaces) {
+  Bulges surface(std::make_shared<Cap>(.01), radius_of, [](double) { return 0.; });
+  surface.add(Cap::at(1, .5), 0);
+  surface.set_time(20);
+  ASSERT_EQ(surface.bumps().size(), 1u);
+  const Vec3 p = Cap::at(1.2, .7), centre = Cap::at(1, .5 * std::exp(.2));
+  EXPECT_EQ((surface.closest(1.1 * p) - p).norm() < 1e-12, true);
+  EXPECT_NEAR((surface.advance(p, 20, 3) - Cap::at(1.2, .7 * std::exp(.03))).norm(), 0, 1e-12);
+  EXPECT_NEAR((surface.normal(p) - p).norm(), 0, 1e-12);
+  double fraction = 0;
+  ASSERT_TRUE(surface.bump_at(p, &fraction));
+  EXPECT_NEAR(fraction, (p - centre).norm() / radius_of(20), 1e-12);
+}
+
+TEST(Bulges, TellCellsTheirPrimordia) {
+  Tissue tissue = testing::polygon_on_tip(8, .6);
+  divide_above(tissue, {.area = .015}, errera, {});
+  Bulges surface(std::make_shared<Cap>(0.), [](double) { return .3; }, [](double) { return 0.; });
+  surface.add(Cap::at(0, .2), 0);
+  surface.add(Cap::at(3, .25), 0);
+  differentiate(tissue, surface);
+  const Column &which = tissue.column(Kind::cell, "primordium"), &closeness = tissue.column(Kind::cell, "closeness");
+  int inside[3] = {0, 0, 0};
+  for (Index c = 0; c < tissue.cells(); ++c) {
+    const double d[] = {(tissue.centroid(c) - Cap::at(0, .2)).norm(), (tissue.centroid(c) - Cap::at(3, .25)).norm()};
+    const int nearest = d[0] < d[1] ? 0 : 1, number = d[nearest] < .3 ? nearest + 1 : 0;
+    ++inside[number];
+    EXPECT_EQ(which.values[static_cast<size_t>(c)], number);
+    EXPECT_NEAR(closeness.values[static_cast<size_t>(c)], number > 0 ? 1 - d[nearest] / .3 : 0, 1e-12);
+  }
+  EXPECT_GT(std::min({inside[0], inside[1], inside[2]}), 2);
 }
 
 }  // namespace

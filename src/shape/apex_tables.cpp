@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "shape/apex_tables.h"
+
+#include <cmath>
+
+namespace tunica {
+
+namespace {
+
+constexpr double least_rise = .05;       ///< of x - y along the profile, for which the first guess is good enough
+constexpr double on_profile = 1e-9;      ///< nearer than this, relative to its length, a point is on the profile
+constexpr double nearest_to_tip = 2e-3;   ///< relative to where the rate gets constant: the clock starts there
+constexpr size_t buckets_per_step = 4;
+
+/// For even steps of a quantity that grows: in which of the given intervals each falls.
+std::vector<size_t> buckets(const std::vector<double>& grows) {
+  const size_t count = buckets_per_step * grows.size();
+  std::vector<size_t> result(count + 1);
+  size_t step = 0;
+  for (size_t i = 0; i <= count; ++i) {
+    const double value = grows.front() + (grows.back() - grows.front()) * static_cast<double>(i) / static_cast<double>(count);
+    while (step + 2 < grows.size() && grows[step + 1] <= value) ++step;
+    result[i] = step;
+  }
+  return result;
+}
+
+/// The interval in which a value falls, from the first to the last.
+size_t interval(const std::vector<double>& grows, const std::vector<size_t>& by_value, double value) {
+  const double share = (value - grows.front()) / (grows.back() - grows.front());
+  const auto bucket = static_cast<size_t>(std::clamp(share, 0., 1.) * static_cast<double>(by_value.size() - 1));
+  size_t step = by_value[bucket];
+  while (step > 0 && grows[step] > value) --step;  // rounding may have put it into the next bucket
+  while (step + 2 < grows.size() && grows[step + 1] <= value) ++step;
+  return step;
+}
+
+}  // namespace
+
+const ApexTables& ApexTables::ready(const Profile& profile, const Flow& flow) {
+  std::call_once(once_, [&] {
+    tabulate(profile);
+    tabulate(flow);
+  });
+  return *this;
+}
+
+// === The profile
+
+void ApexTables::tabulate(const Profile& profile) {
+  size_ = profile.length();
+  std::vector<double> breaks = profile.breaks();
+  breaks.push_back(2 * size_);  // it goes on straight
+  const auto place = [&](double a, Table<2>::Values& value, Table<2>::Values& slope) {
+    const Vec2 p = profile.at(a), t = profile.tangent(a);
+    value = {p.x(), p.y()}, slope = {t.x(), t.y()};
+  };
+  const Table<2> track(breaks, place, 1e-13 * size_);
+  if (!track) return;
+  rise_ = HUGE_VAL;
+  Vec2 before = profile.tangent(0);
+  for (size_t i = 0; i < track.steps(); ++i) {
+    const double h = 1 / track.find(track.start(i)).per_x;
+    level_.push_back(track.value({i, 0, 1}, 0) - track.value({i, 0, 1}, 1));
+    for (const double s : {0., .5, 1.}) {
+      const Table<2>::Place at{i, s, 1 / h};
+      rise_ = std::min(rise_, track.slope(at, 0) - track.slope(at, 1));
+      sharpest_ = std::max(sharpest_, std::hypot(track.bend(at, 0), track.bend(at, 1)));
+    }
+    const Vec2 now(track.slope({i, 0, 1 / h}, 0), track.slope({i, 0, 1 / h}, 1));
+    if ((now - before).norm() > 1e-6) sharpest_ = HUGE_VAL;  // a corner
+    before = {track.slope({i, 1, 1 / h}, 0), track.slope({i, 1, 1 / h}, 1)};
+  }
+  level_.push_back(track.value({track.steps() - 1, 1, 1}, 0) - track.value({track.steps() - 1, 1, 1}, 1));
+  if (!(rise_ > least_rise)) return;
+  by_level_ = buckets(level_);
+  track_ = track;
+}
+
+std::optional<Vec2> ApexTables::at(double a) const {
+  if (!track_ || !(a <= track_.last())) return std::nullopt;
+  const auto p = track_.find(a);
+  return Vec2(track_.value(p, 0), track_.value(p, 1));
+}
+
+Vec2 ApexTables::tangent(double a) const {
+  const auto p = track_.find(a);
+  return Vec2(track_.slope(p, 0), track_.slope(p, 1)).normalized();
+}
+
+std::optional<double> ApexTables::nearest(const Vec2& p) const {
+  if (!track_) return std::nullopt;
+  const double level = p.x() - p.y();
+  const size_t step = interval(level_, by_level_, level);
+  const double from = track_.start(step), to = step + 1 < track_.steps() ? track_.start(step + 1) : track_.last();
+  double a = from + (to - from) * std::clamp((level - level_[step]) / (level_[step + 1] - level_[step]), 0., 1.);
+  for (int i = 0; i < 12; ++i) {
+    const auto at = track_.find(a);
+    const Vec2 away(track_.value(at, 0) - p.x(), track_.value(at, 1) - p.y());
+    const Vec2 along(track_.slope(at, 0), track_.slope(at, 1)), bend(track_.bend(at, 0), track_.bend(at, 1));
+    const double f = away.dot(along), slope = along.squaredNorm() + away.dot(bend);
+    if (!(slope > 0)) return std::nullopt;
+    const double next = std::clamp(a - f / slope, 0., track_.last());
+    const double moved = std::abs(next - a);
+    a = next;
+    if (!(moved <= 1e-6 * size_)) continue;  // the last step squares that
+    if (a == track_.last()) return std::nullopt;
+    // Elsewhere x - y differs by rise_ times the distance along the profile at least, and so by root 2 times the
+    // distance in space at most: nothing beyond `reach` is nearer. Within, the profile bends too little for two places.
+    const double d = away.norm(), reach = 2 * std::sqrt(2) * d / rise_;
+    if (d > on_profile * size_ && !((d + reach) * sharpest_ < .9)) return std::nullopt;
+    return a;
+  }
+  return std::nullopt;
+}
+
+// === Growth
+
+void ApexTables::tabulate(const Flow& flow) {
+  if (!flow.spreads()) return;
+  last_ = flow.last();
+  speed_at_last_ = flow.speed(last_);
+  tail_rate_ = flow.rate().points().back().y();
+  const double first = std::max(flow.near(), nearest_to_tip * last_);
+  std::vector<double> breaks = {std::log(first)};
+  for (const double a : flow.rate().breaks())
+    if (a > first && a < last_) breaks.push_back(std::log(a));
+  breaks.push_back(std::log(last_));
+  const auto time = [&](double log_a, Table<1>::Values& value, Table<1>::Values& slope) {
+    const double a = std::clamp(std::exp(log_a), first, last_);
+    value = {flow.time(a)}, slope = {a / flow.speed(a)};
+  };
+  const double unit = last_ / speed_at_last_;
+  clock_ = Table<1>(breaks, time, 3e-11 * unit);
+  for (size_t i = 0; i < clock_.steps(); ++i) times_.push_back(clock_.value({i, 0, 1}, 0));
+  if (!clock_) return;
+  times_.push_back(clock_.value({clock_.steps() - 1, 1, 1}, 0));
+  by_time_ = buckets(times_);
+}
+
+std::optional<double> ApexTables::after(double a, double dt) const {
+  if (!clock_ || !(dt >= 0) || !(a > 0)) return std::nullopt;
+  const auto tail = [&](double time) {
+    return speed_at_last_ * (tail_rate_ == 0 ? time : std::expm1(tail_rate_ * time) / tail_rate_);
+  };
+  if (a >= last_) {
+    const double speed = speed_at_last_ + tail_rate_ * (a - last_);
+    return a + speed * (tail_rate_ == 0 ? dt : std::expm1(tail_rate_ * dt) / tail_rate_);
+  }
+  const double log_a = std::log(a);
+  if (!(log_a >= clock_.first())) return std::nullopt;
+  const double time = clock_.value(clock_.find(log_a), 0) + dt;
+  if (!(time < times_.back())) return last_ + tail(time - times_.back());
+  const size_t step = interval(times_, by_time_, time);
+  Table<1>::Place at{step, (time - times_[step]) / (times_[step + 1] - times_[step]), 1};
+  for (int i = 0; i < 12; ++i) {
+    const double move = (clock_.value(at, 0) - time) / clock_.slope(at, 0);
+    at.s -= move;
+    if (std::abs(move) < 1e-9) break;
+  }
+  return std::exp(clock_.start(step) + at.s / clock_.find(clock_.start(step)).per_x);
+}
+
+}  // namespace tunica

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "shape/apex_tables.h"
+
+#include "shape/apex.h"
+#include "tissue/fixtures.h"
+
+namespace tunica {
+namespace {
+
+using testing::Dice;
+
+Profile dome() {
+  const Vec2 tip(0, 0), end(1.4, -3);
+  return Profile(
+      BSpline({tip, tip, tip, {.55, 0}, {1, -.25}, {1.25, -.8}, {1.35, -1.6}, end, end, end}, 3, Ends::open));
+}
+
+std::vector<std::pair<const char*, Apex>> apices() {
+  const Curve spline({{0, .25}, {1.7, .25}, {2, .2}, {2.4, .17}, {8, .17}});
+  const Curve linear = Curve::linear({{0, .1}, {1, .3}, {3, 0}});
+  return {{"cap", Apex(Profile::cap(1.5, 1.3, 9), spline)},
+          {"dome", Apex(dome(), linear)},
+          {"slowing", Apex(dome(), Curve({{0, .2}, {1, 1}, {2, 0}}))},
+          {"constant", Apex(dome(), Curve::constant(.3))},
+          {"hemisphere", Apex(Profile::cap(1, M_PI / 2, 5), spline)},
+          {"corner", Apex(Profile(BSpline({{0, 0}, {1, -.2}, {1.1, -2}}, 1, Ends::clamped)), spline)},
+          {"narrowing", Apex(Profile(BSpline({{0, 0}, {2, 0}, {2, -1}, {.5, -1.2}, {.5, -3}}, 3, Ends::clamped)), spline)},
+          {"hole", Apex(Profile::line({1, 0}, {1.5, -4}), spline)}};
+}
+
+/// What is read from tables is what is found the longer way: for points on the surface and near it, and as they grow.
+TEST(ApexTables, AgreeWithWhatTheyTabulate) {
+  Dice dice(7);
+  for (const auto& [name, apex] : apices()) {
+    for (int i = 0; i < 3000; ++i) {
+      const double theta = dice.between(-3, 3), a = 6 * std::pow(dice.real(), 2), dt = dice.between(0, 3);
+      const Vec3 on = apex.position(theta, a);
+      EXPECT_NEAR(apex.arc_of(on), apex.place_of(on).a, 1e-10) << name << ' ' << a;
+      EXPECT_NEAR((apex.advance(on, 0, dt) - apex.position(theta, apex.after(a, dt))).norm(), 0, 1e-9 * (1 + a))
+          << name << ' ' << a << ' ' << dt;
+      EXPECT_NEAR((apex.closest(on) - on).norm(), 0, 1e-10) << name << ' ' << a;
+      if (std::string(name) == "corner" && std::abs(a - std::hypot(1, .2)) < .5) continue;  // two places may be near
+      const Vec3 off = on + Vec3(dice.between(-.1, .1), dice.between(-.1, .1), dice.between(-.1, .1));
+      const Apex::Place place = apex.place_of(off);
+      EXPECT_NEAR((apex.closest(off) - apex.position(place.theta, place.a)).norm(), 0, 1e-8) << name << ' ' << a;
+      EXPECT_NEAR((apex.normal(off) - apex.normal(place)).norm(), 0, 1e-7) << name << ' ' << a;
+    }
+  }
+}
+
+/// A point far from the surface may have several nearest places: then the tables must not answer.
+TEST(ApexTables, AnswerOnlyWhatIsCertain) {
+  Dice dice(8);
+  for (const auto& [name, apex] : apices())
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3 p(dice.between(-3, 3), dice.between(-4, 2), dice.between(-3, 3));
+      const Apex::Place place = apex.place_of(p);
+      const double least = (p - apex.position(place.theta, place.a)).norm();
+      EXPECT_NEAR((p - apex.closest(p)).norm(), least, 1e-9) << name;
+    }
+}
+
+/// They serve where they are made for, so that a slow answer does not go unnoticed.
+TEST(ApexTables, ServeOrdinaryApices) {
+  const Profile profile = Profile::cap(1.5, 1.3, 9);
+  const Flow flow(Curve({{0, .25}, {1.7, .25}, {2, .2}, {2.4, .17}, {8, .17}}));
+  ApexTables tables;
+  tables.ready(profile, flow);
+  for (const double a : {.05, .5, 2., 5., 8.}) {
+    EXPECT_TRUE(tables.after(a, .1).has_value()) << a;
+    const Vec2 p = profile.at(a);
+    EXPECT_TRUE(tables.nearest(p).has_value()) << a;
+    EXPECT_TRUE(tables.nearest(p - Vec2(.05, .05)).has_value()) << a;
+  }
+}
+
+}  // namespace
+}  // namespace tunica
