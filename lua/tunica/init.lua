@@ -8,7 +8,7 @@ local core = require "tunica.core"
 -- Each part declares its operations with the registry.
 for _, part in ipairs {
   "elements", "surfaces", "builders", "tissue", "shapes", "model", "phyllotaxis", "view", "plot", "phyllotaxis_view", "run",
-  "pattern",
+  "pattern", "experiments",
 } do
   require("tunica." .. part)
 end

@@ -121,15 +121,66 @@ local function apply_command_line(my)
   end
 end
 
+--- Takes the table of variants out of what is declared, if there is one: name -> { parameter = value, ... }.
+local function read_variants(my, given)
+  local variants = given.variants
+  if type(variants) ~= "table" or variants[1] ~= nil then return nil end
+  local spec = my.declared.variant
+  if not spec or spec.type ~= "string" then
+    fail("variants of a model are chosen by a parameter: variant = { \"name of the default\", \"what they are\" } is missing")
+  end
+  local names = {}
+  for name, values in pairs(variants) do
+    if type(name) ~= "string" or type(values) ~= "table" then
+      fail("variants: expected name = { parameter = value, ... }, came %s", core.describe(type(name) == "string" and values or name))
+    end
+    names[#names + 1] = name
+    for key, value in pairs(values) do
+      local declared = my.declared[key]
+      if not declared or key == "variant" then
+        fail("variant '%s': there is no parameter '%s'%s", name, tostring(key),
+          type(key) == "string" and core.did_you_mean(key, my.names) or "")
+      end
+      local wrong = complaint(declared, value)
+      if wrong then fail("variant '%s', parameter '%s': %s", name, key, wrong) end
+    end
+  end
+  table.sort(names)
+  if not variants[spec.default] then
+    fail("variant: there is no variant '%s'%s", spec.default, core.did_you_mean(spec.default, names))
+  end
+  spec.choices = names
+  return variants
+end
+
+--- The values of the chosen variant become the defaults; what the command line says comes after.
+local function choose_variant(my, variants)
+  local chosen = core.overrides().variant or my.declared.variant.default
+  if not variants[chosen] then
+    core.blame_command_line()
+    error(string.format("there is no variant '%s'%s; there are: %s", chosen, core.did_you_mean(chosen, my.declared.variant.choices),
+      table.concat(my.declared.variant.choices, ", ")), 0)
+  end
+  for name, value in pairs(variants[chosen]) do
+    my.declared[name].default = value
+    my.values[name] = value
+  end
+end
+
 function params.declare(given)
   if current then fail("tunica.params was called before in this script; a model has one table of parameters") end
   local my = { values = {}, declared = {}, names = {}, overridden = {} }
+  local has_variants = type(given.variants) == "table" and given.variants[1] == nil
   for name, default in pairs(given) do
+    if name == "variants" and has_variants then goto next end
     if not name:match "^[%a_][%w_]*$" then fail("'%s' cannot name a parameter; expected letters, digits, _", name) end
     my.declared[name] = read_declaration(name, default)
     my.values[name] = my.declared[name].default
     my.names[#my.names + 1] = name
+    ::next::
   end
+  local variants = read_variants(my, given)
+  if variants then choose_variant(my, variants) end
   if params.declared_hook then params.declared_hook(my.declared) end
   apply_command_line(my)
   local P = setmetatable({}, meta)
@@ -141,7 +192,8 @@ end
 registry.op {
   name = "tunica.params", kind = "named", rest = { type = "any" },
   doc = "The parameters of the model with their defaults. On the command line, name=value changes one. A parameter is " ..
-    "given by its default, or with its meaning and limits: D = { 1.0, \"diffusion\", unit = \"um2/s\", min = 0 }.",
+    "given by its default, or with its meaning and limits: D = { 1.0, \"diffusion\", unit = \"um2/s\", min = 0 }. With " ..
+    "variants = { name = { parameter = value, ... }, ... } the parameter `variant` chooses one, whose values become the defaults.",
   returns = "the parameters; P.name reads one",
   example = [[
 local tunica = require "tunica"

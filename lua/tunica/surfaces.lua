@@ -134,6 +134,12 @@ op { name = "tunica.bulges", kind = "named", returns = "a surface", source = "th
     return surface
   end,
   example = bumpy .. "print(surface:closest(0, 2, 1))" }
+--- The apex that a surface is or bulges out of.
+function surfaces.apex_below(surface)
+  while is_bulging(surface) do surface = inside[surface].base end
+  return surface
+end
+
 op { name = "bulges:add", kind = "named", source = "thesis 5.5",
   args = {
     { name = "theta", type = "number", position = 1, unit = "degrees", doc = "angle of its centre on an apex" },
@@ -147,8 +153,7 @@ op { name = "bulges:add", kind = "named", source = "thesis 5.5",
     if t.place and not t.theta and not t.a then
       x, y, z = t.place[1], t.place[2], t.place[3] or 0
     elseif t.theta and t.a and not t.place then
-      local base = inside[self].base
-      while is_bulging(base) do base = inside[base].base end
+      local base = surfaces.apex_below(self)
       if not core.is_on_apex(surfaces.core_of(base)) then
         fail("bulges:add: theta and a are places of an apex; on this surface give place = { x, y, z }")
       end

@@ -246,7 +246,7 @@ do
   local c, d = tissue:pair { "auxin", above = 3, where = { a = { 0, 0.4 } } }
   assert(c.a <= 0.4 and d.a <= 0.4)
   check.equal(tissue:pair { "auxin", above = 3, where = { auxin = 5 } }, nil)  -- one cell only
-  check.fails(function() tissue:pair { "auxin", above = 3, where = { b = 1 } } end, "no.*column.*b")
+  check.fails(function() tissue:pair { "auxin", above = 3, where = { b = 1 } } end, "no column 'b'")
   check.fails(function() tissue:pair { "auxin", above = 3, where = { a = { 1, 0 } } } end, "low <= high")
   check.fails(function() tissue:pair { "auxin", above = 3, where = { 1 } } end, "by name")
   check.fails(function() tissue:pair { "auxn", above = 3 } end, "auxin")

@@ -1,0 +1,56 @@
+--- Laser ablation of cells where a primordium is about to start.
+-- WHAT    the next primordium is displaced: it starts beside the cells that are gone, or elsewhere.
+-- HOW     transport_apex; when auxin outside primordia comes near the threshold somewhere, the cells there are removed.
+-- TRY     count=0 (the control)   after=12   count=9
+-- SOURCE  R. S. Smith, PhD thesis, University of Calgary 2007, section 5.5.3, fig. 5.13
+local tunica = require "tunica"
+local shoot = require "parts.shoot"
+
+local P = tunica.params(shoot.with({}, {
+  after = { 4, "from when on a primordium about to start is looked for", unit = "time", min = 0 },
+  incipient = { 0.6, "auxin outside primordia at which it is found, as a share of the threshold", min = 0, max = 1 },
+  count = { 5, "how many cells are removed there", min = 0, max = 1000 },
+}))
+
+local my = shoot.apex(P)
+local model = shoot.model(my)
+shoot.report(my)
+
+local found = {}  -- the place, and how many primordia there were
+
+--- The cell with the most auxin outside primordia, in the peripheral zone.
+local function incipient()
+  local best
+  for c in my.tissue:cells() do
+    local outside = c.primordium == 0 and c.a > P.central and c.a < P.central + P.peripheral
+    if outside and (not best or c.auxin > best.auxin) then best = c end
+  end
+  return best
+end
+
+model:every(P.step, function(t)
+  if found.angle or t < P.after then return end
+  local cell = incipient()
+  if not cell or cell.auxin < P.incipient * P.Th then return end
+  found.angle, found.a = my.apex:closest(cell.x, cell.y, cell.z)
+  found.time, found.before = t, #my.primordia
+  if P.count > 0 then
+    for _, c in ipairs(my.tissue:near { { cell.x, cell.y, cell.z }, count = P.count }) do c:remove() end
+    my.tissue:differentiate { on = my.surface }
+  end
+end)
+
+local function following() return found.before and my.primordia[found.before + 1] end
+model:report {
+  ablated_at = function() return found.time or 0 end,
+  ablated_angle = function() return (found.angle or 0) % 360 end,
+  next_angle = function() return following() and following().angle or 0 end,
+  delay = function() return following() and following().time - found.time or 0 end,
+  displaced = function()
+    if not following() then return 0 end
+    local d = math.abs(following().angle - found.angle) % 360
+    return math.min(d, 360 - d)
+  end,
+}
+
+return model
