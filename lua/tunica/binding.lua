@@ -81,19 +81,20 @@ local function build(my)
   return set, machine
 end
 
---- @param lowered  whether the compiled passes are compared with the traced rules too, which depends on the rules alone
-local function verify(my, set, machine, lowered)
+--- @param all  whether it is the first time for these rules: then more cells are looked at, and the compiled passes are compared
+-- with the traced rules too, which depends on the rules alone
+local function verify(my, set, machine, all)
   core.derive(machine, values_of(my), false)
   local time = core.machine_time(machine)
   for _, r in ipairs(my.rules) do
-    local difference = r.index and rules.compare(set, r.index, r, my.tissue, values_of(my), time)
+    local difference = r.index and rules.compare(set, r.index, r, my.tissue, values_of(my), time, all and 12 or 4)
     if difference then
       r.direct = difference
       untraced_warning(my, r, difference)
       return false
     end
   end
-  if lowered then core.check_lowering(set, machine, values_of(my)) end
+  if all then core.check_lowering(set, machine, values_of(my)) end
   return true
 end
 

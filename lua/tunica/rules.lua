@@ -298,9 +298,9 @@ end
 function rules.can_know(rule, tissue) return rule.waits and #inner_elements(tissue, rule.kind) > 0 end
 
 --- Some elements on which to compare a traced rule with direct evaluation: spread over the tissue, the border included.
-local function samples(tissue, kind)
+local function samples(tissue, kind, about)
   local some, at, due, last = {}, 0, 1, nil
-  local stride = math.max(1, math.floor(core.count(tissue, kind) / 12))
+  local stride = math.max(1, math.floor(core.count(tissue, kind) / about))
   for e in core.each(tissue, kind) do
     at = at + 1
     if at >= due and is_inner(e, kind) then some[#some + 1], due = e, at + stride end
@@ -310,9 +310,10 @@ local function samples(tissue, kind)
   return some
 end
 
---- Compares a traced rule (the `index`-th of `set`) with direct evaluation. Returns nil, or how they differ.
-function rules.compare(set, index, rule, tissue, values, time)
-  for _, element in ipairs(samples(tissue, rule.what == "flux" and "wall" or rule.kind)) do
+--- Compares a traced rule (the `index`-th of `set`) with direct evaluation, on about so many elements. Returns nil, or how
+-- they differ.
+function rules.compare(set, index, rule, tissue, values, time, about)
+  for _, element in ipairs(samples(tissue, rule.what == "flux" and "wall" or rule.kind, about)) do
     local direct = rules.evaluate(rule, element, time)
     local traced = core.reference(set, values, time, index, element)
     for name in pairs(traced) do

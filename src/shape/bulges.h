@@ -53,6 +53,8 @@ class Bulges : public Surface {
   /// To 1e-6 of the smallest radius near it, or to the base's own accuracy where nothing bulges. Far from the surface
   /// it is the best found from several starts.
   Vec3 closest(const Vec3& p) const override;
+  /// The point above the base point of p.
+  Vec3 onto(const Vec3& p) const override { return lifted(base_->closest(p)); }
   /// Of the point above the base point of p: exact for points of the surface, cheap and near enough for those close to
   /// it.
   Vec3 normal(const Vec3& p) const override;

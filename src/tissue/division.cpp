@@ -95,7 +95,7 @@ Plan make_plan(const Mother& mother, End a, End b, double gap, double pinch, con
   Plan plan;
   plan.a = displace(mother, a, gap);
   plan.b = displace(mother, b, gap);
-  const auto onto = [&](const Vec3& p) { return surface ? surface->closest(p) : p; };
+  const auto onto = [&](const Vec3& p) { return surface ? surface->onto(p) : p; };
   const Vec3 p = onto(mother.point(plan.a.side, plan.a.at)), q = onto(mother.point(plan.b.side, plan.b.at));
   plan.at_a = on_border(mother, plan.a) ? p : onto(p + pinch * (q - p));
   plan.at_b = on_border(mother, plan.b) ? q : onto(q + pinch * (p - q));

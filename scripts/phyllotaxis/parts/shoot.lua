@@ -32,6 +32,7 @@ function shoot.parameters()
     r_rate = { 1.198, "speed at which it grows", min = 1e-6 },
     r_most = { 2.097, "greatest radius", min = 1e-3 },
     height = { 0, "how high a primordium bulges in the end", min = 0 },
+    height_rate = { 0.12, "speed at which it does", unit = "length / time", min = 1e-6 },
     radius = { 1.452, "of the sphere that the tip of the apex is part of", min = 0.1 },
     slope = { 74.9, "of the flank", unit = "degrees", min = 5, max = 90 },
     growth = { 0.1704, "relative elemental growth rate of the flank", unit = "1 / time", min = 1e-6 },
@@ -46,11 +47,12 @@ function shoot.parameters()
     variation = { 0.1, "of that area from cell to cell", min = 0, max = 0.9 },
     gap = { 0.23, "least distance of a new wall from old junctions, relative to the root of max_area", min = 0, max = 1 },
     pinch = { 0.05, "of the new wall's length, by which each end is drawn inwards", min = 0, max = 0.4 },
-    step = { 0.1, "time between two steps of growth", min = 1e-4, max = 2 },
+    step = { 0.2, "time between two steps of growth", min = 1e-4, max = 2 },
     initial = { 10, "primordia at the start, in a spiral", min = 0, max = 100 },
     angle = { 137.5, "between two of them", unit = "degrees" },
     plastochron = { 1.55, "between two of them", unit = "time", min = 1e-3 },
     first = { 0.343, "place of the youngest, as a share of the peripheral zone", min = 0, max = 1 },
+    scatter = { 0, "standard deviation of these angles: how well is a disturbed spiral mended?", unit = "degrees", min = 0 },
     jugacy = { 1, "of them start at once, evenly around the apex; angle is then between whorls", min = 1, max = 6 },
     auxin = { 1.5, "auxin at the start, between them", min = 0 },
     dt = { 0.004, "time step", min = 1e-6 },
@@ -90,13 +92,14 @@ function shoot.apex(P)
   local apex = tunica.apex { cap = { P.radius, P.slope }, growth = growth_of(P) }
   local my = { P = P, apex = apex, primordia = {} }
   my.surface = tunica.bulges { on = apex, radius = ramp(P.r_birth, P.r_rate, P.r_most),
-    height = ramp(0, 0.25 * P.height, P.height) }
+    height = ramp(0, P.height_rate, P.height) }
   my.border = P.central + P.peripheral + P.proximal
   my.tissue = tunica.apex_tissue { on = apex, to = my.border, max_area = P.max_area, variation = P.variation, growth = 0.1 }
   my.tissue:locate { on = apex }
   for i = 1, P.initial do
     local whorl, birth = math.ceil(i / P.jugacy), -(math.ceil(P.initial / P.jugacy) - math.ceil(i / P.jugacy)) * P.plastochron
     local theta, a = whorl * P.angle + (i - 1) % P.jugacy * 360 / P.jugacy, P.central + P.first * P.peripheral
+    theta = theta + P.scatter * 2 * (math.random() + math.random() + math.random() - 1.5)
     my.surface:add { theta = theta, a = a, birth = birth }
     my.primordia[i] = { time = birth, angle = theta % 360, a = a }
   end
