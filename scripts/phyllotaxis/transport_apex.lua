@@ -3,12 +3,24 @@
 --         primordium starts; it drains its surroundings, so that the next arises where the gap is widest: a spiral, or whorls.
 -- HOW     PIN1 goes to walls by their length and, exponentially, by the auxin behind them (5.7); PIN1 and auxin are made and decay
 --         (5.8, 5.9). Primordia make more auxin, polarize PIN1 towards their centre (5.10, 5.11) and drain what is above a limit.
--- TRY     initial=0 (without primordia at the start)   r_most=0.89 (primordia that stay small: no spiral)   dt=0.02 (fails)
+-- TRY     variant=distichous   variant=decussate   variant=tricussate   initial=0 (no primordia at the start)
+--         r_birth=0.5 r_most=0.6 (primordia that stay small: no spiral)   scatter=8 (a disturbed start)   dt=0.02 (fails)
 -- SOURCE  R. S. Smith, PhD thesis, University of Calgary 2007, section 5.5, figs 5.8-5.11, table 5.1
 local tunica = require "tunica"
 local shoot = require "parts.shoot"
 
-local P = tunica.params(shoot.parameters())
+local P = tunica.params(shoot.with({}, {
+  variant = { "fibonacci", "the pattern: fibonacci, distichous, decussate or tricussate" },
+  variants = {
+    fibonacci = {},
+    -- whorls need no change of the chemistry: a smaller or larger apex, and growth that fits it
+    distichous = { angle = 180, initial = 6, plastochron = 4, radius = 0.9, central = 1.026, growth = 0.11, growth_to = 1.26, r_most = 2.1 },
+    decussate = { jugacy = 2, angle = 90, initial = 8, plastochron = 3, radius = 1.9, central = 2.166, growth = 0.11, growth_to = 2.66,
+      r_most = 2.1 },
+    tricussate = { jugacy = 3, angle = 60, initial = 12, plastochron = 3, radius = 2.85, central = 2.83, growth = 0.102, growth_to = 3.86,
+      r_most = 2.042, r_rate = 1.507, growth_tip = 1.53, mu = 0.2286, rho_peripheral = 2.308 },
+  },
+}))
 
 local my = shoot.apex(P)
 local model = shoot.model(my)

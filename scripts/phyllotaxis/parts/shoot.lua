@@ -114,8 +114,12 @@ end
 
 --- A primordium starts between two neighbours with auxin above the threshold, in the peripheral zone and outside primordia.
 local function initiate(my)
-  local P, wider = my.P, math.exp(my.P.widening * my.surface:time())
+  local P, wider, before = my.P, math.exp(my.P.widening * my.surface:time()), #my.primordia
   while true do
+    if #my.primordia > before + 12 then
+      error(string.format("more than 12 primordia start at once at time %.4g: auxin is above the threshold Th = %.4g nearly everywhere",
+        my.surface:time(), P.Th), 0)
+    end
     local first, second = my.tissue:pair { "auxin", above = P.Th,
       where = { primordium = 0, a = { P.central * wider, (P.central + P.peripheral) * wider } } }
     if not first then return end
@@ -267,6 +271,14 @@ function shoot.report(my, most)
     pin_outside = function() return pin_outside(my) end,
     cells_around = function() return cells_around(my) end,
     cells = function() return #my.tissue end,
+    note = function()
+      if #list > P.initial then return "" end
+      local most = 0
+      for c in my.tissue:cells() do
+        if c.primordium == 0 then most = math.max(most, c.auxin) end
+      end
+      return string.format("no primordium started: auxin outside primordia is %.4g at most, the threshold %.4g", most, P.Th)
+    end,
     drained = function() return my.tissue:sum "drained" end,  -- amount of auxin, by the cells that are still there
   }
   local shown = { colour = "auxin", palette = "greens", range = { 0, 12 }, sides = { "pin", colour = "#e02020" }, light = true,

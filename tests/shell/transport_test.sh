@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Auxin transport on the cellular apex: the spiral over many meshes, whorls, mutants and experiments of chapter 5.
+source "$(dirname "$0")/common.sh"
+
+value() { awk -v name="$1" '$1 == name { print $2 }' out.txt; }
+between() { awk -v x="$(value "$1")" -v low="$2" -v high="$3" 'BEGIN { exit !(x != "" && x >= low && x <= high) }' || wrong "$last: $1 is $(value "$1"), expected $2 to $3"; }
+run() { # model arguments: without pictures
+  local model=phyllotaxis/$1
+  shift
+  last="$model $*"
+  code 0 "$tunica" "$model" "$@" -q --no-frames --out run
+  rm -rf run
+}
+
+# pin1 makes no primordia; auxin on its flank makes one there, on its tip a ring of them.
+run pin1_mutant --until 30
+between primordia 0 0
+between highest 5 7.4
+says out.txt "auxin outside primordia is 6"
+run pin1_mutant variant=npa --until 20
+between last 4 9
+for seed in 1 2 3; do
+  run auxin_application --until 20 --seed $seed
+  between primordia 1 1
+  between farthest 0 0.8
+  run auxin_application variant=tip --until 20 --seed $seed
+  between primordia 8 40
+  between widest_gap 0 65
+done
+
+# Ablation displaces or delays what is about to start.
+for seed in 1 2 3; do
+  run ablation --until 8 count=0 --seed $seed
+  control=$(value next_angle) soon=$(value delay)
+  run ablation --until 8 --seed $seed
+  between displaced 0 60
+  awk -v a="$control" -v b="$(value next_angle)" -v s="$soon" -v d="$(value delay)" 'BEGIN { exit !(a != b && d > s) }' ||
+    wrong "ablation changes nothing (seed $seed)"
+done
+
+# What is wrong is said, and where a step is too long too.
+code 1 "$tunica" phyllotaxis/ablation count=1000 --until 8 --no-frames -q --out bad
+says err.txt "last cell"
+code 1 "$tunica" phyllotaxis/auxin_application reach=0.01 --until 8 --no-frames -q --out bad2
+says err.txt "the place is off the tissue"
+code 1 "$tunica" phyllotaxis/auxin_application a=50 --until 8 --no-frames -q --out bad3
+says err.txt "off the tissue"
+code 1 "$tunica" phyllotaxis/transport_apex Th=1 --until 3 --no-frames -q --out bad4
+says err.txt "primordia start at once"
+code 1 "$tunica" phyllotaxis/transport_apex r_birth=3 --until 3 --no-frames -q --out bad5
+says err.txt "greater than r_most"
+code 3 "$tunica" phyllotaxis/transport_apex dt=0.02 --until 10 --no-frames -q --out long
+says err.txt "try a smaller dt"
+code 2 "$tunica" phyllotaxis/transport_apex variant=decusate --no-frames -q
+says err.txt "did you mean 'decussate'"
+
+# A run that was stopped goes on with the same bits, primordia included.
+code 0 "$tunica" phyllotaxis/transport_apex --until 6 --no-frames -q --out whole
+cp out.txt whole.txt
+code 0 "$tunica" phyllotaxis/transport_apex --until 3 --no-frames -q --out half
+code 0 "$tunica" resume half --until 6 -q
+[ "$(awk '$1 == "hash"' whole.txt)" == "$(awk '$1 == "hash"' out.txt)" ] || wrong "resumed: another hash"
+
+finish
