@@ -45,6 +45,7 @@ std::vector<ShippedModel> shipped_models() {
   std::error_code error;
   for (fs::recursive_directory_iterator i(folder, error), end; !error && i != end; i.increment(error)) {
     if (!i->is_regular_file() || i->path().extension() != ".lua") continue;
+    if (i->path().parent_path().filename() == "parts") continue;  // of models, which require them
     fs::path name = fs::relative(i->path(), folder);
     models.push_back({name.replace_extension().string(), first_comment(i->path())});
   }
