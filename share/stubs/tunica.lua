@@ -158,6 +158,17 @@ function tissue:deform(place) end
 ---@return tunica.tissue # the tissue
 function tissue:locate(options) end
 
+---@class tunica.tissue_differentiate_options
+---@field on? tunica.bulges the surface with primordia that the tissue lies on (surface that bulges (tunica.bulges); needed)
+---@field [1]? tunica.bulges the same
+
+---Gives the cells columns `primordium` (number of the one in which the centroid lies most deeply, 0 outside all) and `closeness` (1 - d/r: 1 at the centre of that primordium, 0 at its rim and outside). tissue:grow and tissue:divide with the same `on` keep them up to date; call it again when a primordium has been added.
+---
+---Source: thesis (5.10), (5.11)
+---@param options? tunica.tissue_differentiate_options|tunica.bulges
+---@return tunica.tissue # the tissue
+function tissue:differentiate(options) end
+
 ---@class tunica.tissue_divide_options
 ---@field above? number cells divide whose area is above this, and their daughters, until none is (number greater than 0; area)
 ---@field [1]? number the same
@@ -191,6 +202,20 @@ function tissue:count_peaks(column, above) end
 ---@param column string name of a column of the cells (the name of a column of the cells; needed)
 ---@return number # a number from -1 to 1, and whether it is beyond what noise gives
 function tissue:checkerboard(column) end
+
+---@class tunica.tissue_pair_options
+---@field column? string name of a column of the cells (the name of a column of the cells; needed)
+---@field [1]? string the same
+---@field above? number both cells have more than this (number; needed)
+---@field [2]? number the same
+---@field where? table conditions on both cells: { column = value } or { column = { low, high } } (table; {} if not given)
+
+---Two neighbours that both have more than a threshold: where a primordium starts. Of several such pairs the one whose lower value is highest.
+---
+---Source: thesis 5.5.1
+---@param options? tunica.tissue_pair_options|string
+---@return any # two cells, the one with more first; or nothing
+function tissue:pair(options) end
 
 ---The cells that have more than each of their neighbours, and more than `above`.
 ---@param column string name of a column of the cells (the name of a column of the cells; needed)
@@ -252,6 +277,23 @@ function tissue:picture(options) end
 ---Shows a picture of the tissue in the terminal. Where the output is no terminal, or one that cannot show pictures, it is written to a temporary file, whose path is printed.
 ---@param options? tunica.tissue_show_options
 function tissue:show(options) end
+
+---@class tunica.tissue_near_options
+---@field place? number[] a point { x, y } or { x, y, z } (point or direction { x, y } or { x, y, z })
+---@field [1]? number[] the same
+---@field radius? number cells whose centroid is so near (number 0 or more; length)
+---@field [2]? number the same
+---@field count? integer at most so many; without a radius the nearest ones (whole number 1 or more)
+---@field on? tunica.surface instead of a point: an apex, with (surface (tunica.apex, tunica.bulges or tunica.surface))
+---@field theta? number angle around its axis, and (number; degrees)
+---@field a? number arc length from its tip (number 0 or more; length)
+
+---The cells near a place: to be removed (ablation: for _, c in ipairs(tissue:near { ... }) do c:remove() end), to be given a value, or for model:supply. Distances are those in space. Where no cell is within the radius that is an error: the place may be off the tissue.
+---
+---Source: thesis 5.5.3
+---@param options? tunica.tissue_near_options|number[]
+---@return table # a list of cells, the nearest first
+function tissue:near(options) end
 
 ---A cell
 ---@class tunica.cell
@@ -611,6 +653,21 @@ function model:steady(options) end
 ---Source: thesis figs. 3.4, 5.2, 5.4, 5.7
 ---@param options? tunica.model_view_options
 function model:view(options) end
+
+---@class tunica.model_supply_options
+---@field column? string what is supplied: a column with a rate or flux (text; needed)
+---@field [1]? string the same
+---@field rate? number added to its rate of change in these cells (number; concentration / time; needed)
+---@field cells? any[]|function the cells; or a function that returns them, called when the supply starts (list of items or function; needed)
+---@field from? number when it starts: now, if left out (number 0 or more; time)
+---@field to? number when it ends: never, if left out (number 0 or more; time)
+
+---Applies a substance to cells of a model, from a time on and for a time: a drop of auxin on an apex. The cells keep what they got as they grow and move, and so do their daughters. What is supplied now stands in a column of its own.
+---
+---Source: thesis 5.5.3, fig. 5.12
+---@param options? tunica.model_supply_options|string
+---@return any # the name of the new column
+function model:supply(options) end
 
 ---A model of phyllotaxis by inhibition
 ---@class tunica.phyllotaxis
@@ -1049,6 +1106,7 @@ function tunica.allowable_interval(options) end
 
 ---@class tunica.apex_options
 ---@field profile? tunica.contour|string|any[] the curve that turns around the y axis, from the tip down: a contour, its name or file, or points (contour, or text or list of items; "dome" if not given)
+---@field cap? number[] instead of a profile: { radius, slope }, a part of a sphere down to where it falls by `slope` degrees, and from there a straight flank; its length, if it matters, is the third (30 radii if left out) (list of 2 to 3 items, each a number)
 ---@field growth? number|tunica.curve|string|any[] relative elemental growth rate along the profile, by arc length from the tip: a number, a curve, its name or file, or points (number or curve, or text or list of items; 1 / time; 1 if not given)
 
 ---A growing surface of revolution with its tip at the top. A point of it is (theta, a): the angle in degrees and the arc length from the tip. With growth it moves away from the tip at the speed v(a), the integral of the rate from 0 to a; theta stays, and so does the form of the surface. Beyond its end the profile goes straight on. An apex never changes.
@@ -1299,7 +1357,7 @@ function tunica.page(options) end
 ---@class tunica.params_options
 ---@field [string] any 
 
----The parameters of the model with their defaults. On the command line, name=value changes one. A parameter is given by its default, or with its meaning and limits: D = { 1.0, "diffusion", unit = "um2/s", min = 0 }.
+---The parameters of the model with their defaults. On the command line, name=value changes one. A parameter is given by its default, or with its meaning and limits: D = { 1.0, "diffusion", unit = "um2/s", min = 0 }. With variants = { name = { parameter = value, ... }, ... } the parameter `variant` chooses one, whose values become the defaults.
 ---@param options? tunica.params_options
 ---@return tunica.parameters # the parameters; P.name reads one
 function tunica.params(options) end
