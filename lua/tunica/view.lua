@@ -178,9 +178,10 @@ end
 
 op { name = "model:view", kind = "named", source = "thesis figs. 3.4, 5.2, 5.4, 5.7",
   args = with { { name = "every", type = "number", above = 0, unit = "time", doc = "between pictures; without it, one at the end" },
-    { name = "name", type = "string", doc = "of the pictures' folder, where a model has several views" } },
-  doc = "How the model is to be shown: cells coloured by a column, bands along their walls, marks and labels. A run writes a " ..
-    "picture every so often, and one at its end.",
+    { name = "name", type = "string", doc = "of the pictures' folder, where a model has several views" },
+    { name = "plot", type = "function", doc = "instead of the tissue: function(t) that returns the options of a tunica.plot, without a file" } },
+  doc = "How the model is to be shown: cells coloured by a column, bands along their walls, marks and labels; or numbers, as a plot. " ..
+    "A run writes a picture every so often, and one at its end.",
   example = [[
 local tunica = require "tunica"
 local tissue = tunica.ring { 50 }
@@ -189,7 +190,7 @@ local model = tunica.model { tissue = tissue, dt = 0.01 }
 model:view { colour = "auxin", palette = "greens", every = 1 }
 ]],
   fn = function(model, given)
-    settings_of(given)
+    if not given.plot then settings_of(given) end
     if given.name and not given.name:match "^[%w_-]+$" then
       fail("name of a view: letters, digits, - and _ only (it names a folder), came '%s'", given.name)
     end
@@ -217,10 +218,26 @@ local function texts_of(model)
   return texts
 end
 
+--- A view that is a plot, as bytes of a PNG.
+local function draw_plot(model, given)
+  local options = given.plot(model.time)
+  if type(options) ~= "table" then fail("view: the function 'plot' must return the options of tunica.plot, returned %s", core.describe(options)) end
+  local name = os.tmpname()
+  os.remove(name)
+  local plotted = { file = name .. ".png", title = title_of(model, given), size = given.size }
+  for key, value in pairs(options) do plotted[key] = value end
+  local ok, why = pcall(registry.module.plot, plotted)
+  if not ok then error(why, 0) end
+  local bytes = core.read_file(plotted.file)
+  os.remove(plotted.file)
+  return bytes
+end
+
 --- The picture of a model by one of its views: bytes of a PNG, width, height.
 function view.draw(model, given)
   local kind = other(model)
   if kind then return kind.draw(model, given, title_of(model, given), texts_of(model)) end
+  if given.plot then return draw_plot(model, given) end
   local settings = settings_of(given)
   settings.title = title_of(model, given)
   check_columns(model.tissue, settings)
@@ -237,7 +254,9 @@ function view.check(model)
   local kind = other(model)
   for _, given in ipairs(kind and model.views or {}) do kind.check(model, given) end
   if kind then return end
-  for _, given in ipairs(model.views) do check_columns(model.tissue, settings_of(given)) end
+  for _, given in ipairs(model.views) do
+    if not given.plot then check_columns(model.tissue, settings_of(given)) end
+  end
 end
 
 --- True if pictures can be drawn here; else false and why not.

@@ -19,6 +19,7 @@ local P = tunica.params(shoot.with({}, {
 }))
 
 local my = shoot.apex(P)
+my.variant = P.variant  -- its row of table 5.2 goes into the plot
 local model = shoot.model(my)
 shoot.report(my, 20)
 

@@ -249,6 +249,35 @@ local function cells_around(my)
   return 2 * math.pi * (my.apex:profile(sum / n)) / math.sqrt(my.tissue:mean "area")
 end
 
+-- The thesis's divergence angles: table 5.1 from the first primordium on; table 5.2, the ten that follow ten at 137.5 degrees.
+local published = {
+  ["table 5.1"] = { 162.7, 96.3, 155.9, 123.4, 143.2, 139.3, 128.6, 142.1, 124.8, 144.2, 131.9, 125.4, 141.2, 132.3, 131.6, 125.0, 137.3,
+    135.4, 124.1, 123.0, 144.8, 114.6, 128.9, 133.1, 135.0, 143.0, 150.0, 130.9, 123.5, 132.8, 126.7, 136.4, 130.1, 134.6, 130.9,
+    135.2, 125.4, 153.2, 126.1 },
+  fixed_pin = { 145.1, 143.8, 139.5, 133.8, 143.3, 134.7, 130.0, 125.7, 137.4, 144.3 },
+  iaa_saturation = { 137.3, 128.6, 138.9, 122.2, 143.4, 139.3, 122.6, 143.5, 126.9, 136.0 },
+  transport_power = { 127.7, 145.4, 125.2, 136.3, 130.9, 126.8, 135.5, 124.2, 148.9, 122.8 },
+  allocation_base = { 144.0, 131.2, 134.9, 119.8, 145.1, 137.2, 125.0, 126.2, 128.1, 133.7 },
+}
+
+--- A plot of the divergence angles beside those of the thesis, all in the handedness of the first.
+local function divergence_plot(my)
+  local angles, numbers, series = shoot.angles(my), {}, {}
+  for i in ipairs(angles) do numbers[i] = math.max(1, my.P.initial) + i end
+  if my.P.initial == 0 and angles[1] and angles[1] > 180 then
+    for i, angle in ipairs(angles) do angles[i] = 360 - angle end
+  end
+  if #angles > 0 then series[1] = { x = numbers, y = angles, title = "this run", style = "both" } end
+  local name = my.P.initial == 0 and "table 5.1" or my.variant and published[my.variant] and my.variant
+  if name and my.P.jugacy == 1 then
+    local x = {}
+    for i in ipairs(published[name]) do x[i] = math.max(1, my.P.initial) + i end
+    series[#series + 1] = { x = x, y = published[name], title = "thesis, " .. name:gsub("_", " "), style = "both" }
+  end
+  if #series == 0 then series[1] = { x = { 0 }, y = { 0 }, title = "no primordia" } end
+  return { series = series, xlabel = "primordium", ylabel = "divergence angle", yrange = { 0, 360 }, lines = { { y = 137.5, text = "137.5" } } }
+end
+
 local function words(angles)
   local text = {}
   for i, angle in ipairs(angles) do text[i] = string.format("%.0f", angle) end
@@ -288,6 +317,7 @@ function shoot.report(my, most)
     for key, value in pairs(shown) do view[key] = value end
     my.model:view(view)
   end
+  my.model:view { name = "divergence", plot = function() return divergence_plot(my) end }
 end
 
 return shoot
