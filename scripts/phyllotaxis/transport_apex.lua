@@ -13,12 +13,11 @@ local P = tunica.params(shoot.with({}, {
   variant = { "fibonacci", "the pattern: fibonacci, distichous, decussate or tricussate" },
   variants = {
     fibonacci = {},
-    -- whorls need no change of the chemistry: a smaller or larger apex, and growth that fits it
     distichous = { angle = 180, initial = 6, plastochron = 4, radius = 0.9, central = 1.026, growth = 0.11, growth_to = 1.26, r_most = 2.1 },
-    decussate = { jugacy = 2, angle = 90, initial = 8, plastochron = 3, radius = 1.9, central = 2.166, growth = 0.11, growth_to = 2.66,
-      r_most = 2.1 },
-    tricussate = { jugacy = 3, angle = 60, initial = 12, plastochron = 3, radius = 2.85, central = 2.83, growth = 0.102, growth_to = 3.86,
-      r_most = 2.042, r_rate = 1.507, growth_tip = 1.53, mu = 0.2286, rho_peripheral = 2.308 },
+    decussate = { jugacy = 2, angle = 90, initial = 8, plastochron = 3, b = 4, radius = 1.95, central = 2.223, growth = 0.11,
+      growth_to = 2.73, r_most = 2, dt = 0.0025 },
+    tricussate = { jugacy = 3, angle = 60, initial = 12, plastochron = 3, b = 4.3, radius = 3.1, central = 3.41, growth = 0.1,
+      growth_to = 4.278, r_most = 2, r_rate = 2, dt = 0.0022 },
   },
 }))
 
