@@ -11,8 +11,8 @@ local tunica = require "tunica"
 
 -- One set of values keeps spirals. Lengths are multiplied by `scale`: D and T go with its square, the speed of rings with it.
 local function spiral(scale, own)
-  local all = { D = 3.8 * scale ^ 2, T = 27.7 * scale ^ 2, interval = 6 / scale, b = 4, kT = 1, rho = 0.255, kI = 0, mu = 0.05, rho_pin = 1,
-    auxin = 1, pin = 0.9, seeds = 8, hold = 20, settling = 0, dt = 0.015 }
+  local all = { D = 3.8 * scale ^ 2, T = 27.7 * scale ^ 2, interval = 6 / scale, b = 4, kT = 1, rho = 0.255, kI = 0, mu = 0.05,
+    rho_pin = 1, auxin = 1, pin = 0.9, seeds = 8, hold = 20, settling = 0, dt = 0.015 }
   for name, value in pairs(own) do all[name] = value end
   return all
 end
@@ -22,10 +22,11 @@ local P = tunica.params {
   variants = {
     distichous = {},
     decussate = { around = 27, low = 76, high = 90 },
-    tricussate = { around = 38, jugacy = 3, low = 50, high = 60 },  -- 38 is no multiple of 3: its whorls are uneven
+    tricussate = { around = 38, jugacy = 3, low = 50, high = 60 },  -- 38 is no multiple of 3: whorls are uneven
     fibonacci = spiral(1, { around = 33, angle = 137.5, apart = 4, low = 120, high = 144 }),
-    lucas = spiral(0.86, { around = 40, angle = 99.5, apart = 2.64, seeds = 11, low = 90, high = 120 }),
-    spiro_distichous = spiral(0.35, { around = 15, angle = 168, apart = 3.9, low = 150, high = 176 }),
+    lucas = spiral(0.78, { around = 40, angle = 99.5, seeds = 12, first = 3, apart = 2.6, low = 90, high = 120 }),
+    spiro_distichous = spiral(0.35,
+      { around = 15, angle = 168, seeds = 9, first = 1, apart = 3.9, dt = 0.04, low = 150, high = 176 }),
   },
   around = { 13, "cells in a ring", min = 3 },
   rows = { 42, "rings, at most: then the oldest goes when one is put in", min = 12 },
@@ -61,7 +62,9 @@ local P = tunica.params {
 }
 
 --- Ring and angle of the peak k of those at the start; 0 is the youngest.
-local function seed(k) return math.floor(P.central + P.first + k * P.apart + 0.5), -k * P.angle % 360 end
+local function seed(k)
+  return math.floor(P.central + P.first + k * P.apart + 0.5), -k * P.angle % 360
+end
 
 local function auxin_at_start(c)
   for k = 0, P.seeds - 1 do
@@ -76,7 +79,8 @@ end
 local tissue = tunica.cylinder { around = P.around, rows = math.min(P.rows_first, P.rows) }
 tissue:cell { auxin = function(c) return auxin_at_start(c) * (1 + c:uniform(-P.noise, P.noise)) end, pin = P.pin }
 
-local model = tunica.model { tissue = tissue, params = P, dt = P.dt, method = P.method, stop = P.hold + P.insertions * P.interval }
+local stop = P.hold + P.insertions * P.interval
+local model = tunica.model { tissue = tissue, params = P, dt = P.dt, method = P.method, stop = stop }
 
 model:derive(function(c) c.pull = P.b ^ c.auxin end)
 model:derive(function(c) c.share = c.pin / c:sum(function(n) return n.pull end) end)
@@ -94,7 +98,8 @@ end)
 
 -- Primordia are peaks, followed down the apex ----------------------------------------------------------------------------
 
--- { time =, angle =, row = its ring now, seen = rings put in since it was first there, counts = true or false, lost = true or nil }
+-- { time =, angle =, row = its ring now, seen = rings put in since it was first there, counts = whether it is a new one,
+-- lost = whether its peak has gone }
 local primordia, put_in = {}, 0
 for k = P.seeds - 1, 0, -1 do
   local row, angle = seed(k)
@@ -219,16 +224,16 @@ local function per_whorl()
   return table.concat(count, " ")
 end
 
---- Share of divergences (of whorls: between them) from `low` to `high`, to the hand that most have.
+--- Share of divergences (of whorls: between them) from `low` to `high`. They are positive towards the hand that most have; where
+-- whorls alternate there is no hand.
 local function within()
-  local found = pattern()
-  local list, n = found.jugacy == 1 and found.raw or found.divergences, 0
-  for _, angle in ipairs(list or {}) do
-    local one_hand = (found.hand or 0) == 0 or P.high > 179 / found.jugacy
-    if one_hand then angle = math.abs(angle) else angle = angle * found.hand end
-    if angle >= P.low and angle <= P.high + 1e-6 then n = n + 1 end
+  local found, n = pattern(), 0
+  local list = found.jugacy == 1 and found.raw or found.divergences or {}
+  for _, angle in ipairs(list) do
+    if P.high > 179 / found.jugacy then angle = math.abs(angle) end
+    if angle >= P.low - 1e-6 and angle <= P.high + 1e-6 then n = n + 1 end
   end
-  return #(list or {}) > 0 and n / #list or 0
+  return #list > 0 and n / #list or 0
 end
 
 local function lost()

@@ -24,7 +24,6 @@ end
 for variant, jugacy in pairs { distichous = 1, decussate = 2, tricussate = 3 } do
   local found = run { variant = variant }
   local name, whorls = found.pattern:match "^(%a+)", 0
-  print(found.pattern, found.divergences, found.per_whorl, found.within, os.clock())
   check(name == variant, "not " .. variant, found)
   for n in found.per_whorl:gmatch "%d+" do
     check(tonumber(n) == jugacy, "uneven whorls " .. found.per_whorl, found)
@@ -34,6 +33,14 @@ for variant, jugacy in pairs { distichous = 1, decussate = 2, tricussate = 3 } d
   if variant == "distichous" then check(math.abs(math.abs(found.mean) - 180) < 3, "mean " .. found.mean, found) end
 end
 
--- Set F1
-local found = run { variant = "fibonacci" }
-check(found.primordia >= 25 and found.mean > 131 and found.mean < 134 and found.deviation < 8, "no spiral", found)
+-- Spirals that go on from peaks put there, nearly without noise
+local function spiral(arguments, least, low, high, deviation)
+  local found = run(arguments)
+  check(found.primordia >= least, found.primordia .. " primordia", found)
+  check(found.mean > low and found.mean < high and found.deviation < deviation, "no spiral", found)
+  return found
+end
+spiral({ variant = "fibonacci", insertions = 120 }, 25, 131, 134, 8)
+local lucas = spiral({ variant = "lucas", insertions = 70 }, 20, 96, 103, 6)
+local turning = spiral({ variant = "spiro_distichous", insertions = 80 }, 20, 165, 172, 6)
+assert(lucas.within > 0.9 and turning.within > 0.9)
