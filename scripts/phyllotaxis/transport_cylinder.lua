@@ -12,7 +12,7 @@ local tunica = require "tunica"
 -- One set of values keeps spirals. Lengths are multiplied by `scale`: D and T go with its square, the speed of rings with it.
 local function spiral(scale, own)
   local all = { D = 3.8 * scale ^ 2, T = 27.7 * scale ^ 2, interval = 6 / scale, b = 4, kT = 1, rho = 0.255, kI = 0, mu = 0.05,
-    rho_pin = 1, auxin = 1, pin = 0.9, seeds = 8, hold = 20, settling = 0, dt = 0.015 }
+    rho_pin = 1, auxin = 1, pin = 0.9, seeds = 8, hold = 20, settling = 0, dt = 0.012 }
   for name, value in pairs(own) do all[name] = value end
   return all
 end
@@ -24,7 +24,7 @@ local P = tunica.params {
     decussate = { around = 27, low = 76, high = 90 },
     tricussate = { around = 38, jugacy = 3, low = 50, high = 60 },  -- 38 is no multiple of 3: whorls are uneven
     fibonacci = spiral(1, { around = 33, angle = 137.5, apart = 4, low = 120, high = 144 }),
-    lucas = spiral(0.78, { around = 40, angle = 99.5, seeds = 12, first = 3, apart = 2.6, low = 90, high = 120 }),
+    lucas = spiral(0.78, { around = 40, angle = 99.5, seeds = 12, first = 3, apart = 2.6, dt = 0.015, low = 90, high = 120 }),
     spiro_distichous = spiral(0.35,
       { around = 15, angle = 168, seeds = 9, first = 1, apart = 3.9, dt = 0.04, low = 150, high = 176 }),
   },
