@@ -4,7 +4,7 @@
 --         in a ring, the more peaks there are in a whorl; spirals go on where peaks were put in a spiral.
 -- HOW     a cell shares its PIN1 out to its walls, exponentially, by the auxin behind them (5.4); PIN1 is made where there is
 --         auxin (5.5); auxin is made, decays, diffuses and is carried (5.6). At regular times a ring is put in below that of
---         the tip. The oldest ring is held as it is, or peaks would gather at the edge.
+--         the tip. The oldest ring is held as it is, so that the edge makes no peaks.
 -- TRY     variant=decussate   variant=fibonacci   variant=fibonacci seeds=0   variant=fibonacci around=25   noise=0.3
 -- SOURCE  R. S. Smith, PhD thesis, University of Calgary 2007, section 5.4, figs 5.5 and 5.6; the values are our own
 local tunica = require "tunica"
