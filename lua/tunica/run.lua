@@ -257,13 +257,13 @@ end
 
 --- Takes the model to the end of the run. Returns "done" or "interrupted"; the state is then that of a step's end.
 function run.loop(self)
-  local model = self.model
+  local model, arrived = self.model, false
   while true do
     if core.cancelled() then return "interrupted" end
     outputs.emit(self.outputs, model.time)
     if self.series then with_files(self, self.series.flush, self.series, false) end
     shadow(self)
-    if model.time >= self.goal or self.most and model.finished then return "done" end
+    if arrived or model.time >= self.goal or self.most and model.finished then return "done" end
     local steps = model.steps
     self.advancing = true
     local status = model:advance { to = self.goal, pause = outputs.next_time(self.outputs), seconds = slice }
@@ -271,6 +271,7 @@ function run.loop(self)
     local size, unit = outputs.size(model)
     self.work = self.work + (model.steps - steps) * size
     if status == "interrupted" then return status end
+    arrived = status == "done"  -- the time may then be less than the goal by a rounding error
     progress.update(self.progress, model.time, size, unit, self.work)
   end
 end

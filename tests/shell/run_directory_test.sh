@@ -26,6 +26,17 @@ code 4 "$tunica" "$fake" --out file/run; says err.txt "file"
 code 2 "$tunica" -e 'return { advance = function() end }' --out endless; says err.txt "--until"
 code 0 "$tunica" "$fake" --until 2 -q --out short; [ "$(field short/run.json result.time)" = 2 ] || wrong "--until"
 
+# An end that lies past the last step by a rounding error is reached.
+cat >rounded.lua <<'END'
+local tunica = require "tunica"
+local tissue = tunica.ring { 3 }
+tissue:cell { a = 1 }
+local model = tunica.model { tissue = tissue, dt = 1, stop = 1000.0000000000002 }
+model:rate(function(c, d) d.a = -0.001 * c.a end)
+return model
+END
+code 0 timeout 60 "$tunica" rounded.lua -q --out rounded; [ "$(field rounded/run.json result.steps)" = 1000 ] || wrong "rounded end"
+
 # JSON on standard output; a failure too.
 code 0 "$tunica" "$fake" --json -q; [ "$(field out.txt status)" = done ] || wrong "--json"
 [ "$(field out.txt report.mean 2>/dev/null || field out.txt result.report.mean)" != nil ] || wrong "--json report"
