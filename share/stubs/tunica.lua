@@ -628,6 +628,7 @@ function model:steady(options) end
 ---@class tunica.model_view_options
 ---@field every? number between pictures; without it, one at the end (number greater than 0; time)
 ---@field name? string of the pictures' folder, where a model has several views (text)
+---@field plot? function instead of the tissue: function(t) that returns the options of a tunica.plot, without a file (function)
 ---@field colour? string|function colour of cells: the name of a column, or a function that returns a number (nil: no value) (text or function)
 ---@field palette? "cividis"|"cyclic"|"diverging"|"greens"|"greys"|"inferno"|"magma"|"viridis"|string[] colour map, by name or as a list of colours that it runs through (one of 'cividis', 'cyclic', 'diverging', 'greens', 'greys', 'inferno', 'magma', 'viridis' or list of items, each text; "viridis" if not given)
 ---@field range? number[] values at the ends of the colour map, { low, high }; by default those that occur (from 0, if they start near it) (list of 1 to 2 items, each a number)
@@ -648,7 +649,7 @@ function model:steady(options) end
 ---@field outline_width? number of these lines; by default by the size of cells (number from 0 to 100; pixels)
 ---@field plain? string colour of cells without `colour` (text)
 
----How the model is to be shown: cells coloured by a column, bands along their walls, marks and labels. A run writes a picture every so often, and one at its end.
+---How the model is to be shown: cells coloured by a column, bands along their walls, marks and labels; or numbers, as a plot. A run writes a picture every so often, and one at its end.
 ---
 ---Source: thesis figs. 3.4, 5.2, 5.4, 5.7
 ---@param options? tunica.model_view_options

@@ -37,3 +37,25 @@ local symbol = P.D
 assert(symbol[1] == P and symbol[2] == "D" and symbol[3] == 3 and P.wet == true)
 params.trace_hook = nil
 fails(function() params.declare({ x = 1 }) end, "before")
+
+-- Variants: their values are defaults, and what they name must be there.
+params.forget()
+P = params.declare { T = { 22.5, "transport", min = 0 }, D = 4, variant = { "a", "which" }, variants = { a = {}, b = { T = 3 } } }
+assert(P.T == 22.5 and P.variant == "a" and params.declared(P).variant.choices[2] == "b")
+params.forget()
+P = params.declare { T = { 22.5, "transport" }, variant = { "b", "which" }, variants = { a = {}, b = { T = 3 } } }
+assert(P.T == 3 and params.declared(P).T.default == 3)
+params.forget()
+P = params.declare { variants = { 5, "a number by this name" } }
+assert(P.variants == 5)
+local function refused(given, words)
+  params.forget()
+  fails(function() params.declare(given) end, words)
+end
+refused({ T = 1, variants = { a = {} } }, "variant = ")
+refused({ T = 1, variant = 3, variants = { a = {} } }, "variant = ")
+refused({ T = 1, variant = "c", variants = { abc = {}, d = {} } }, "no variant 'c'")
+refused({ Temp = 1, variant = "a", variants = { a = { Tempo = 2 } } }, "did you mean 'Temp'")
+refused({ T = { 1, min = 0 }, variant = "a", variants = { a = { T = -2 } } }, "at least 0")
+refused({ T = 1, variant = "a", variants = { a = { variant = "b" } } }, "no parameter 'variant'")
+refused({ T = 1, variant = "a", variants = { a = 3 } }, "expected name = ")
