@@ -62,7 +62,7 @@ op { name = "tissue:near", kind = "named", returns = "a list of cells, the neare
 op { name = "model:supply", kind = "named", changes = true, source = "thesis 5.5.3, fig. 5.12", returns = "the name of the new column",
   args = {
     { name = "column", type = "string", required = true, position = 1, doc = "what is supplied: a column with a rate or flux" },
-    { name = "rate", type = "number", required = true, unit = "concentration / time", doc = "added to its rate of change in these cells" },
+    { name = "rate", type = "number", required = true, doc = "added to its rate of change in these cells: concentration per time" },
     { name = "cells", type = "list|function", required = true,
       doc = "the cells; or a function that returns them, called when the supply starts" },
     { name = "from", type = "number", min = 0, unit = "time", doc = "when it starts: now, if left out" },

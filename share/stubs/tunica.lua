@@ -658,7 +658,7 @@ function model:view(options) end
 ---@class tunica.model_supply_options
 ---@field column? string what is supplied: a column with a rate or flux (text; needed)
 ---@field [1]? string the same
----@field rate? number added to its rate of change in these cells (number; concentration / time; needed)
+---@field rate? number added to its rate of change in these cells: concentration per time (number; needed)
 ---@field cells? any[]|function the cells; or a function that returns them, called when the supply starts (list of items or function; needed)
 ---@field from? number when it starts: now, if left out (number 0 or more; time)
 ---@field to? number when it ends: never, if left out (number 0 or more; time)
