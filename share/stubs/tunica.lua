@@ -214,7 +214,7 @@ function tissue:checkerboard(column) end
 ---
 ---Source: thesis 5.5.1
 ---@param options? tunica.tissue_pair_options|string
----@return any # two cells, the one with more first; or nothing
+---@return tunica.cell? first, tunica.cell? second # two cells, the one with more first; or nothing
 function tissue:pair(options) end
 
 ---The cells that have more than each of their neighbours, and more than `above`.

@@ -28,7 +28,7 @@ local function collect(folder, prefix, list)
   for _, name in ipairs(core.list(folder)) do
     local path = folder .. "/" .. name
     if core.kind_of(path) == "folder" then
-      collect(path, prefix .. name .. "/", list)
+      if name ~= "parts" then collect(path, prefix .. name .. "/", list) end  -- parts of models are none
     elseif name:match "%.lua$" then
       list[#list + 1] = { name = prefix .. name:gsub("%.lua$", ""), path = path }
     end

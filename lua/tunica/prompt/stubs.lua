@@ -66,6 +66,7 @@ local results = { ["a number"] = "number", ["a whole number"] = "integer", text 
   ["x, y, z, of length 1"] = "number x, number y, number z",
   ["the least and the greatest angle; nil if the pair is not visible and opposed at `angle`"] = "number? least, number? greatest",
   ["a table that prints as its description"] = "table",
+  ["two cells, the one with more first; or nothing"] = "tunica.cell? first, tunica.cell? second",
   ["three numbers"] = "number, number, number", ["theta, a"] = "number theta, number a" }
 
 --- The type of what an operation gives, read from its words.
