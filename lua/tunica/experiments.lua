@@ -59,7 +59,7 @@ op { name = "tissue:near", kind = "named", returns = "a list of cells, the neare
   example = setup .. "print(#tissue:near { on = apex, theta = 0, a = 0.2, radius = 0.15 })\n" ..
     "for _, c in ipairs(tissue:near { { 0.2, 0, 0 }, count = 3 }) do c:remove() end" }
 
-op { name = "model:supply", kind = "named", changes = true, source = "thesis 5.5.3, fig. 5.12", returns = "the name of the new column",
+op { name = "model:supply", kind = "named", changes = true, source = "thesis 5.5.3, fig. 5.12", returns = "text: the name of the new column",
   args = {
     { name = "column", type = "string", required = true, position = 1, doc = "what is supplied: a column with a rate or flux" },
     { name = "rate", type = "number", required = true, doc = "added to its rate of change in these cells: concentration per time" },

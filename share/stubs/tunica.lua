@@ -667,7 +667,7 @@ function model:view(options) end
 ---
 ---Source: thesis 5.5.3, fig. 5.12
 ---@param options? tunica.model_supply_options|string
----@return any # the name of the new column
+---@return string # text: the name of the new column
 function model:supply(options) end
 
 ---A model of phyllotaxis by inhibition
