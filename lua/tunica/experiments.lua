@@ -37,8 +37,8 @@ op { name = "tissue:near", kind = "named", returns = "a list of cells, the neare
     { name = "a", type = "number", min = 0, unit = "length", doc = "arc length from its tip" },
   },
   doc = "The cells near a place: to be removed (ablation: for _, c in ipairs(tissue:near { ... }) do c:remove() end), to be given a " ..
-    "value, or for model:supply. Distances are those in space. Where no cell is within the radius that is an error: the place may be " ..
-    "off the tissue.",
+    "value, or for model:supply. Distances are those in space. No cell within the radius is refused: the place may be off " ..
+    "the tissue.",
   fn = function(self, t)
     if not t.radius and not t.count then fail("tissue:near: how near? give a radius, or the count of cells") end
     local x, y, z = place_of(t)

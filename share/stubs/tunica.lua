@@ -288,7 +288,7 @@ function tissue:show(options) end
 ---@field theta? number angle around its axis, and (number; degrees)
 ---@field a? number arc length from its tip (number 0 or more; length)
 
----The cells near a place: to be removed (ablation: for _, c in ipairs(tissue:near { ... }) do c:remove() end), to be given a value, or for model:supply. Distances are those in space. Where no cell is within the radius that is an error: the place may be off the tissue.
+---The cells near a place: to be removed (ablation: for _, c in ipairs(tissue:near { ... }) do c:remove() end), to be given a value, or for model:supply. Distances are those in space. No cell within the radius is refused: the place may be off the tissue.
 ---
 ---Source: thesis 5.5.3
 ---@param options? tunica.tissue_near_options|number[]

@@ -180,6 +180,7 @@ int find_pair_of_cells(lua_State* L) {
   return guard(L, [&] {
     const Tissue& tissue = tissue_at(L, 1);
     const std::string column = check_string(L, 2, "'column'");
+    check_table(L, 4, "the bounds");
     std::vector<Within> bounds;
     for (int i = 1; i + 2 <= static_cast<int>(lua_objlen(L, 4)); i += 3) {
       for (int k = 0; k < 3; ++k) lua_rawgeti(L, 4, i + k);

@@ -161,10 +161,10 @@ cp keep.lua model.lua
 echo "no database at all" >text.db
 code 2 sweep a=0..5 --random 3 --out text.db
 says err.txt "not the file of a sweep"
-"$tunica" sweep model.lua a=0..5 wait=0.1 --random 30 --out busy.db -q &
+"$tunica" sweep model.lua a=0..5 wait=0.5 --random 12 --out busy.db -q &
 process=$!
 sleep 0.7
-code 2 sweep a=0..5 wait=0.1 --random 30 --out busy.db
+code 2 sweep a=0..5 wait=0.5 --random 12 --out busy.db
 says err.txt "in use"
 wait $process
 # More samples and seeds may be added: the first stay.
