@@ -144,14 +144,23 @@ int gnuplot(lua_State* L) {
 
 // === Pictures in a terminal
 
+/// What the terminal answers; a host that keeps it is asked once, and reads the keys that were typed meanwhile.
+std::string answer_of_terminal(lua_State* L) {
+  TerminalTalk* talk = host(L).terminal;
+  if (talk && talk->answer) return *talk->answer;
+  const Reply reply = split_reply(terminal_reply(image_query()));
+  if (talk) talk->answer = reply.answers, talk->typed += reply.typed;
+  return reply.answers;
+}
+
 /// terminal_picture(bytes of a PNG) -> the characters that show it on standard output, or nil if that cannot show one
 int terminal_picture_of(lua_State* L) {
   return guard(L, [&] {
     const std::string png = check_string(L, 1, "a picture");
     Terminal terminal{isatty(STDOUT_FILENO) != 0, terminal_environment(), ""};
-    if (terminal.is_tty && !terminal.environment.contains("TUNICA_IMAGES") &&
+    if (terminal.is_tty && terminal.environment["TUNICA_IMAGES"].empty() &&
         choose_protocol(terminal) == ImageProtocol::blocks)
-      terminal.reply = terminal_reply(image_query());
+      terminal.reply = answer_of_terminal(L);
     const ImageProtocol protocol = choose_protocol(terminal);
     if (protocol == ImageProtocol::off) return 0;
     winsize size{};

@@ -4,6 +4,7 @@
 #include <exception>
 #include <lua.hpp>
 #include <new>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -20,6 +21,13 @@ struct RandomStream {
 
 class Rescue;
 
+/// What a terminal answered when it was asked what pictures it can show, once it was; keys that came meanwhile, to be
+/// read next.
+struct TerminalTalk {
+  std::optional<std::string> answer;
+  std::string typed;
+};
+
 /// What one Lua state knows of its host; lives as long as the state.
 struct Host {
   CancelFlag cancel;
@@ -27,11 +35,12 @@ struct Host {
   RandomStream random;
   const void* metatables[5] = {};  ///< of the handles (Kind) and of the tissue (last); see handle.h
   int tissues_made = 0;
-  int rules = 0;                ///< that are being called as they are, one inside another (see InRule)
-  bool notes_errors = false;    ///< whether a function is to be told where errors are raised (see note_errors)
-  Rescue* rescue = nullptr;     ///< of a host that has one (see core.rescue)
-  lua_State* main = nullptr;    ///< the thread that lives as long as the state
-  lua_State* active = nullptr;  ///< the thread that runs an operation which may call back into Lua (see Entering)
+  int rules = 0;                     ///< that are being called as they are, one inside another (see InRule)
+  bool notes_errors = false;         ///< whether a function is to be told where errors are raised (see note_errors)
+  TerminalTalk* terminal = nullptr;  ///< of a host that keeps what the terminal answered
+  Rescue* rescue = nullptr;          ///< of a host that has one (see core.rescue)
+  lua_State* main = nullptr;         ///< the thread that lives as long as the state
+  lua_State* active = nullptr;       ///< the thread that runs an operation which may call back into Lua (see Entering)
 };
 Host& host(lua_State* L);
 

@@ -8,6 +8,8 @@
 
 #include <chrono>
 
+#include "view/terminal.h"
+
 namespace tunica::lua {
 namespace {
 
@@ -15,7 +17,7 @@ using Clock = std::chrono::steady_clock;
 
 std::string read_reply(int terminal) {
   std::string reply;
-  const auto end = Clock::now() + std::chrono::milliseconds(200);
+  const auto end = Clock::now() + std::chrono::seconds(1);
   while (reply.size() < 4096) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
     pollfd ready{terminal, POLLIN, 0};
@@ -23,7 +25,7 @@ std::string read_reply(int terminal) {
     char c;
     if (read(terminal, &c, 1) != 1) break;
     reply += c;
-    if (c == 'c' && reply.rfind("\033[?") != std::string::npos) break;
+    if (c == 'c' && split_reply(reply).complete) break;
   }
   return reply;
 }

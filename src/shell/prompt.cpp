@@ -7,11 +7,13 @@
 #include <csignal>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include "lua/guard.h"
 #include "shell/exit_codes.h"
 #include "shell/prompt_editor.h"
 #include "shell/prompt_history.h"
+#include "shell/rescued.h"
 #include "shell/screen.h"
 #include "shell/terminal.h"
 #include "shell/version.h"
@@ -117,7 +119,10 @@ Completions Prompt::complete(const std::string& line, size_t cursor) {
 }
 
 std::optional<std::string> Prompt::read_line(const char* prompt) {
-  if (editor_) return editor_->read(prompt);
+  if (editor_) {
+    editor_->typed(std::exchange(session_.terminal().typed, ""));
+    return editor_->read(prompt);
+  }
   std::string line;
   if (!std::getline(std::cin, line)) return std::nullopt;
   return line;
@@ -187,6 +192,10 @@ Prompt::Turn Prompt::one_input() {
 int Prompt::run() {
   if (!open()) return session_.exit_code();
   if (options_.banner && terminal_) fmt::print("{}\n", versions_as_text());
+  if (terminal_ && options_.keeps_history) {
+    const std::string path = history_path();
+    for (const auto& line : look_after_rescued(path.substr(0, path.rfind('/')))) say_note(line);
+  }
   session_.interrupts().interactive(terminal_);
   for (Turn turn = Turn::done; turn != Turn::leave;) {
     call_session("look");

@@ -21,6 +21,7 @@ namespace {
 Editor::Complete complete;
 std::function<bool()> interrupted;
 Completions found;
+std::string typed_before;
 
 /// The next byte of the keyboard. readline itself reads on after a signal; here the line is given up, without a gap
 /// between looking and waiting in which a signal could be lost.
@@ -31,6 +32,13 @@ int read_key(FILE* stream) {
   for (;;) {
     sigprocmask(SIG_BLOCK, &stopping, &before);
     const bool stop = interrupted();
+    if (stop) typed_before.clear();
+    if (!typed_before.empty()) {
+      sigprocmask(SIG_SETMASK, &before, nullptr);
+      const int key = static_cast<unsigned char>(typed_before.front());
+      typed_before.erase(0, 1);
+      return key;
+    }
     pollfd ready{fileno(stream), POLLIN, 0};
     const int count = stop ? 0 : ppoll(&ready, 1, nullptr, &before);
     sigprocmask(SIG_SETMASK, &before, nullptr);
@@ -140,6 +148,12 @@ int tab(int, int) {
   return 0;
 }
 
+void replace_binding(const std::string& keys, rl_command_func_t* before, rl_command_func_t* now) {
+  int kind = ISFUNC;
+  if (rl_function_of_keyseq(keys.c_str(), nullptr, &kind) == before && kind == ISFUNC)
+    rl_bind_keyseq(keys.c_str(), now);
+}
+
 }  // namespace
 
 Editor::Editor(Complete function, std::function<bool()> stops) {
@@ -156,6 +170,11 @@ Editor::Editor(Complete function, std::function<bool()> stops) {
   rl_completer_quote_characters = nullptr;
   rl_initialize();
   rl_bind_key('\t', tab);
+  // Up and Down look for what begins as the line does; unless the user's inputrc has something else for them.
+  for (const std::string start : {"\033[", "\033O"}) {
+    replace_binding(start + "A", rl_get_previous_history, rl_history_search_backward);
+    replace_binding(start + "B", rl_get_next_history, rl_history_search_forward);
+  }
 }
 
 Editor::~Editor() { complete = nullptr; }
@@ -167,6 +186,8 @@ std::optional<std::string> Editor::read(const char* prompt) {
   std::free(line);
   return text;
 }
+
+void Editor::typed(std::string_view keys) { typed_before += keys; }
 
 bool Editor::asks(const char* question) {
   char* line = readline(question);

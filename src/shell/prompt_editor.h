@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tunica::shell {
@@ -33,6 +34,9 @@ class Editor {
   /// Reads a line, or several that were pasted at once. Returns nothing at the end of input; what was typed so far if a
   /// signal has come.
   std::optional<std::string> read(const char* prompt);
+
+  /// Keys that were typed before: they are read first.
+  void typed(std::string_view keys);
 
   /// A question that one key answers: whether it was y.
   bool asks(const char* question);

@@ -2,15 +2,21 @@
 #include "shell/prompt_history.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <ctime>
 #include <filesystem>
 // readline wants stdio first
 #include <readline/history.h>
+
+#include "shell/terminal.h"
 
 namespace tunica::shell {
 
@@ -45,6 +51,21 @@ bool make_file(const std::string& path) {
   return true;
 }
 
+/// All of an entry, or nothing of it (a full disk): the next one must not be glued to half a line. errno says why.
+bool append(const std::string& path, const std::string& entry) {
+  const int file = open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0600);
+  if (file < 0) return false;
+  const off_t size = lseek(file, 0, SEEK_END);
+  const ssize_t written = write(file, entry.data(), entry.size());
+  const bool whole = written == static_cast<ssize_t>(entry.size());
+  const int why = written < 0 ? errno : ENOSPC;
+  if (!whole && size >= 0 && ftruncate(file, size) != 0) {
+  }
+  close(file);
+  if (!whole) errno = why;
+  return whole;
+}
+
 std::string user_path(const char* variable, const char* below_home, const char* name) {
   const char* folder = std::getenv(variable);
   if (folder && *folder == '/') return std::string(folder) + name;
@@ -65,7 +86,8 @@ History::History(std::string path) : path_(std::move(path)) {
   history_multiline_entries = 1;
   stifle_history(most_entries);
   if (path_.empty()) return;
-  if (!make_file(path_)) {
+  if (!make_file(path_)) {  // what is there can be read all the same
+    read_history(path_.c_str());
     path_.clear();
     return;
   }
@@ -84,7 +106,9 @@ void History::add(const std::string& text) {
   add_history(text.c_str());
   if (path_.empty() || text.starts_with(' ')) return;
   const Lock lock(path_);
-  append_history(1, path_.c_str());
+  if (append(path_, fmt::format("#{}\n{}\n", std::time(nullptr), text))) return;
+  say_warning(fmt::format("what is typed is not kept any more: {}: {}", path_, std::strerror(errno)));
+  path_.clear();
 }
 
 }  // namespace tunica::shell

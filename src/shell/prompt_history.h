@@ -9,10 +9,11 @@ namespace tunica::shell {
 /// An input of several lines is one entry. Only the user can read it.
 class History {
  public:
-  /// `path`: "" keeps nothing on disk. A file that cannot be written costs the history, not the prompt.
+  /// `path`: "" keeps nothing on disk. A file that cannot be written is read all the same, and nothing is added to it.
   explicit History(std::string path);
 
   /// Adds an input, unless it repeats the one before or begins with a blank (which keeps it out of the file too).
+  /// If the file takes no more (a full disk) that is said once, and the file stays as it was.
   void add(const std::string& text);
 
  private:

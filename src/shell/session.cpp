@@ -13,7 +13,10 @@
 
 namespace tunica::shell {
 
-Session::Session(uint64_t seed) : state_(library_folder()), interrupts_(state_.get()) { lua::host(lua()).seed = seed; }
+Session::Session(uint64_t seed) : state_(library_folder()), interrupts_(state_.get()) {
+  lua::host(lua()).seed = seed;
+  lua::host(lua()).terminal = &terminal_;
+}
 
 void Session::set_parameters(const std::map<std::string, std::string>& parameters) {
   luaL_findtable(lua(), LUA_REGISTRYINDEX, "tunica.overrides", 0);

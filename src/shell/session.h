@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lua/guard.h"
 #include "lua/state.h"
 #include "shell/options.h"
 #include "shell/signals.h"
@@ -29,6 +30,7 @@ class Session {
   explicit Session(uint64_t seed);
   lua_State* lua() const { return state_.get(); }
   Interrupts& interrupts() { return interrupts_; }
+  lua::TerminalTalk& terminal() { return terminal_; }
 
   /// key=value arguments, for tunica.params.
   void set_parameters(const std::map<std::string, std::string>& parameters);
@@ -49,6 +51,7 @@ class Session {
   int code_of_stop() const;
 
  private:
+  lua::TerminalTalk terminal_;
   lua::State state_;
   Interrupts interrupts_;
   int exit_code_ = 0;

@@ -180,6 +180,23 @@ std::map<std::string, std::string> terminal_environment() {
 
 std::string image_query() { return "\033_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\033\\\033[c"; }
 
+Reply split_reply(std::string_view bytes) {
+  constexpr std::pair<std::string_view, std::string_view> answers[] = {{"\033_G", "\033\\"}, {"\033[?", "c"}};
+  Reply reply;
+  while (!bytes.empty()) {
+    size_t length = 0;
+    for (const auto& [start, end] : answers) {
+      if (!starts(bytes, start)) continue;
+      const size_t last = bytes.find(end, start.size());
+      length = last == std::string_view::npos ? bytes.size() : last + end.size();
+      reply.complete = reply.complete || (end == "c" && last != std::string_view::npos);
+    }
+    (length ? reply.answers : reply.typed) += bytes.substr(0, std::max<size_t>(1, length));
+    bytes.remove_prefix(std::max<size_t>(1, length));
+  }
+  return reply;
+}
+
 ImageProtocol choose_protocol(const Terminal& terminal) {
   const std::string wanted = value_of(terminal, "TUNICA_IMAGES"), term = value_of(terminal, "TERM");
   if (!wanted.empty()) {

@@ -29,6 +29,13 @@ std::map<std::string, std::string> terminal_environment();
 /// device attributes, which every terminal answers (last: "\033[?...c" ends the reply).
 std::string image_query();
 
+/// What comes from a terminal that was asked: its answers, and the keys typed before and in between.
+struct Reply {
+  std::string answers, typed;
+  bool complete = false;  ///< the primary device attributes have come
+};
+Reply split_reply(std::string_view bytes);
+
 /// How to show pictures: TUNICA_IMAGES (kitty, iterm, sixel, blocks, none) decides if it is set; none if this is not a
 /// terminal, or one without cursor and colour (TERM dumb, vt100), or NO_COLOR; else by the reply and what is known of
 /// terminals by name. Within tmux and screen, which do not pass graphics on, blocks.

@@ -109,6 +109,104 @@ TEST_F(PromptTest, WithstandsWhatIsTyped) {
   says("#long", "3000");
 }
 
+TEST_F(PromptTest, AsksTheTerminalOnceAndLosesNoKeys) {
+  start({"-q", "-i", "patterning/sheet", "cells=60"}, {{"TUNICA_IMAGES", ""}, {"NO_COLOR", ""}});
+  const auto asked = [&] {
+    size_t count = 0;
+    for (size_t at = 0; (at = terminal_->bytes().find("\033_Gi=31", at)) != std::string::npos; ++at) ++count;
+    return count;
+  };
+  terminal_->type("show()\r");
+  for (int i = 0; i < 100 && asked() == 0; ++i) terminal_->watch(0.05);
+  terminal_->type("40");  // before the answer, in it and after it
+  terminal_->type("\033_Gi=31;ENOENT\033\\ + ");
+  terminal_->type("\033[?62;22c2\r");
+  EXPECT_TRUE(terminal_->shows("\n42\n")) << terminal_->screen().text();
+  EXPECT_TRUE(terminal_->stands_at(">"));
+  says("show() 'again'", "again");
+  EXPECT_EQ(asked(), 1);
+}
+
+TEST_F(PromptTest, TellsOnceWhatWasRescued) {
+  const fs::path state = folder_ / "state/tunica";
+  fs::create_directories(state);
+  const auto make = [&](const std::string& name, int days) {
+    std::ofstream(state / name) << "x = 1";
+    fs::last_write_time(state / name, fs::file_time_type::clock::now() - std::chrono::hours(24 * days));
+  };
+  make("rescued-1", 40), make("rescued-2.lua", 2), make("rescued-notes", 90);
+  start({"-q"}, {}, 200);
+  EXPECT_TRUE(terminal_->displays("dofile \"" + (state / "rescued-2.lua").string() + "\""))
+      << terminal_->screen().text();
+  EXPECT_FALSE(fs::exists(state / "rescued-1"));
+  EXPECT_TRUE(fs::exists(state / "rescued-notes")) << "it is the user's";
+  start({"-q"}, {}, 200);
+  EXPECT_EQ(terminal_->screen().text().find("rescued"), std::string::npos) << "told twice";
+  for (int i = 10; i < 40; ++i) make("rescued-" + std::to_string(i), 1);
+  start({"-q"}, {}, 200);
+  EXPECT_EQ(std::distance(fs::directory_iterator(state), {}), 20 + 4) << "history, its lock, the stamp, the user's";
+}
+
+TEST_F(PromptTest, AFullDiskLeavesTheHistoryWhole) {
+  fs::create_directories(folder_ / "state/tunica");
+  fs::create_symlink("/dev/full", folder_ / "state/tunica/history");
+  start({"-q"});
+  says("1 + 1", "not kept any more");
+  says("2 + 2", "\n4\n");
+  EXPECT_EQ(terminal_->screen().text().find("any more"), terminal_->screen().text().rfind("any more")) << "said twice";
+  terminal_->type("\x1b[A\x1b[A\r");
+  EXPECT_TRUE(terminal_->shows("\n2\n")) << "kept while the prompt lives";
+}
+
+TEST_F(PromptTest, NothingIsLostByAFileThatIsBeingWritten) {
+  const fs::path path = folder_ / "mine.lua";
+  const std::string whole =
+      "local tunica = require 'tunica'\nlocal t = tunica.ring { 10 }\nt:cell { s = 1 }\n"
+      "local m = tunica.model { tissue = t, dt = 0.1, stop = 5 }\nm:rate(function(c, d) d.s = 1 end)\nreturn m\n";
+  std::ofstream(path) << whole;
+  start({"-q"}, {}, 200);
+  says("load '" + path.string() + "'", "model, tissue");
+  says("run(1)", "now at t = 1");
+  for (const size_t bytes : {size_t{0}, size_t{40}, whole.size() - 10}) {
+    std::ofstream(path) << whole.substr(0, bytes);
+    says("reload()", "error: ");
+    says("model.time, tissue:max 's' > 1.9", "\n1\ntrue\n");
+  }
+  says("load '" + path.string() + "'", "error: ");
+  says("undo()", "back to before: run(1)");  // what ran, not what failed
+  says("redo()", "again");
+  fs::remove(path);
+  says("reload()", "error: ");
+  says("model.time", "\n1\n");
+  std::ofstream(path) << whole;
+  says("reload()", "t = 1 is kept");
+}
+
+TEST_F(PromptTest, KnowsWhatWasMeant) {
+  start({"-q"});
+  says("?run", "Runs the model at hand");  // the first input of all
+  says("help", "Some things to type");
+  says("load ring", "load \"ring\"");
+  says("run 5", "run(5)");
+  says("!ls -l", "os.execute \"ls -l\"");
+  says("undo", "undo() calls it");
+  says("load 'ring'", "model, tissue");
+  says("D = 2", "the model's parameter is P.D");
+  says("P.D", "\n1\n");
+  terminal_->type("loa\x1b[A\r");
+  EXPECT_TRUE(terminal_->shows("model, tissue")) << "Up looks for what begins so";
+}
+
+TEST_F(PromptTest, BreaksLinesAtBlanks) {
+  start({"-q"}, {}, 40);
+  says("load 'ring'",
+       "\nmodel, tissue (tissue: 50 cells, 50\n  walls, no geometry), P now stand for\n  it; help(model) says more\n");
+  says("P", "\nkT = 2            saturation of\n                  transport by the auxin\n");
+  says("x = run(20)", "");
+  says("who()", "now at t = 20: 1000 steps, 50\n        cells, ");
+  says("model:report(3)", "takes a table\n  of options: ");
+}
+
 TEST_F(PromptTest, NeedsNoPlaceForItsHistory) {
   fs::create_directories(folder_ / "state/tunica/history");  // a folder
   start({"-q"});

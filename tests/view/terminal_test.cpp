@@ -19,6 +19,15 @@ Picture gradient(int width, int height) {
   return p;
 }
 
+TEST(Terminal, TellsAnswersFromKeys) {
+  const Reply reply = split_reply("ru\033[A\033_Gi=31;OK\033\\n(5)\n\033[?62;4c\xc3\xa9");
+  EXPECT_EQ(reply.answers, "\033_Gi=31;OK\033\\\033[?62;4c");
+  EXPECT_EQ(reply.typed, "ru\033[An(5)\n\xc3\xa9");
+  EXPECT_TRUE(reply.complete);
+  EXPECT_FALSE(split_reply("c\033[?62").complete);
+  EXPECT_EQ(split_reply("c\033[?62").typed, "c");
+}
+
 TEST(Terminal, ChoosesTheProtocol) {
   struct Case {
     Environment environment;

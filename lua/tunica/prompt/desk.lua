@@ -9,6 +9,7 @@ local registry = require "tunica.registry"
 local params = require "tunica.params"
 local course = require "tunica.course"
 local plain = require "tunica.plain"
+local screen = require "tunica.prompt.screen"
 local script = require "tunica.prompt.script"
 local tissue_models, ring_models = require("tunica.model").inside, require("tunica.phyllotaxis").inside
 
@@ -26,7 +27,9 @@ function desk.is_given(name, value)
   return given[name] and rawequal(rawget(_G, name), value) or registry.prompt[name] == value or value == package.loaded.tunica
 end
 
-function desk.say(format, ...) io.write(select("#", ...) > 0 and string.format(format, ...) or format, "\n") end
+function desk.say(format, ...)
+  io.write(screen.fold(select("#", ...) > 0 and string.format(format, ...) or format), "\n")
+end
 
 --- What belongs to a model of either kind, or nil.
 function desk.inside(model)
@@ -64,8 +67,10 @@ end
 --- Runs a script (see script.run), which must return a model. Returns that and its source.
 function desk.run(o)
   local model, source = script.run(o)
-  if not desk.inside(model) then registry.fail("'%s' has run, and returned no model (its last line should be: return model)",
-    o.path) end
+  if not desk.inside(model) then
+    if o.shipped then registry.fail("'%s' has run to its end; it leaves no model to work on", o.name) end
+    registry.fail("'%s' has run, and returned no model (its last line should be: return model)", o.path)
+  end
   begun[model] = held_by(model)
   return model, source
 end

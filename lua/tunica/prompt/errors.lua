@@ -189,9 +189,8 @@ end
 --- The lines to write about an error that came out of an input.
 function errors.describe(message)
   local text = text_of(message)
-  local out = { screen.paint("red", "error: ") .. text:gsub("[%c\127]", function(c)
-    return (c == "\n" or c == "\t") and c or "\\" .. c:byte()
-  end) }
+  local shown = "error: " .. text:gsub("[%c\127]", function(c) return (c == "\n" or c == "\t") and c or "\\" .. c:byte() end)
+  local out = { (screen.fold(shown):gsub("^error: ", screen.paint("red", "error: "))) }
   local called = text:match "attempt to call global '([%w_]+)'"
   local session = package.loaded["tunica.prompt.session"]
   if called and session and session.commands()[called] then

@@ -104,9 +104,9 @@ op { name = "prompt.restore", args = { file },
     local other = script.changed(source)
     if not there then say("  its script %s is gone; the copy in the session is used", about.path)
     elseif other then say("  %s has changed since; reload() takes it as it is now", other) end
-    for i = 2, #about.files do
-      local now = source.files[i]
-      if not now or now.text ~= about.files[i].text then say("  the module %s is not as it was", about.files[i].path) end
+    for i = 2, #about.files do  -- modules, and what was read by dofile since
+      local read, now = pcall(core.read_file, about.files[i].path)
+      if not read or now ~= about.files[i].text then say("  %s is not as it was", about.files[i].path) end
     end
   end }
 

@@ -138,6 +138,17 @@ local function goal_of(model, o)
   return to
 end
 
+--- What a report gave, in a few words.
+local function report_text(value)
+  local kind = type(value)
+  if kind == "number" then return values.short(value) end
+  if kind == "string" then return screen.printable(screen.cut(value, 60)) end
+  if kind ~= "table" then return values.brief(value) end
+  local count = 0
+  for _ in next, value do count = count + 1 end
+  return string.format("(a table of %d)", count)
+end
+
 local run_meta = { __metatable = "run" }
 
 --- "now at t = 20: 2,000 steps, 650 cells, 1.3 s"
@@ -147,8 +158,7 @@ function run_meta.__tostring(r)
     r.steps == 1 and "" or "s", r.size, r.unit, r.seconds)
   local parts = {}
   for _, each in ipairs(r.reports) do
-    local is_number = type(each.value) == "number"
-    parts[#parts + 1] = each.name .. " " .. (is_number and values.short or values.brief)(each.value)
+    parts[#parts + 1] = each.name .. " " .. report_text(each.value)
   end
   return #parts > 0 and text .. "\n  " .. table.concat(parts, ", ") or text
 end

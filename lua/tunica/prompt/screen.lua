@@ -44,6 +44,20 @@ function screen.wrap(text, width, indent)
   return table.concat(lines, "\n")
 end
 
+--- Text for the screen as it is now: lines that are wider are broken at spaces, and go on two columns further in, or after
+-- `column` blanks, up to where they are taken as they are. Where there is no screen lines stay whole.
+function screen.fold(text, column)
+  local width = screen.width()
+  if not screen.terminal then return text end
+  if column and column > width / 2 then column = nil end
+  return (text:gsub("[^\n]+", function(line)
+    if screen.length(line) <= width then return nil end
+    local head = column and line:sub(1, column) or line:match "^ *"
+    local body = head:gsub(" ", "\1") .. line:sub(#head + 1)  -- blanks that stay
+    return (screen.wrap(body, width, (" "):rep(column or #head + 2)):gsub("\1", " "))
+  end))
+end
+
 local named = { ["\n"] = "\\n", ["\t"] = "\\t", ["\r"] = "\\r" }
 
 --- Text that cannot disturb a terminal: control characters as \n, \27.

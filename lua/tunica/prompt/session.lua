@@ -117,6 +117,7 @@ local help_words = { ["??"] = "search", ["?"] = "help" }
 local function help_of(text)
   local mark, word = text:match "^%s*(%?%??)%s*(.-)%s*$"
   if not mark then mark, word = "?", text:match "^%s*([%a_][%w_.:]*)%s*%?%s*$" end
+  if not word and text:match "^%s*help%s*$" then word = "" end
   if not word then return nil end
   return help_words[mark], word
 end
@@ -202,6 +203,7 @@ local function run(fn, name, shown, is_expression)
 end
 
 local function turn_help(operation, word)
+  session.commands()  -- their help comes with them
   local found, help = pcall(require, "tunica.prompt.help")
   if not found then
     complain(help)
@@ -253,6 +255,36 @@ end
 
 -- Inputs ------------------------------------------------------------------------------------------------------------------
 
+--- What someone may have meant who knows other prompts: a line to follow a message about what cannot be read; or nil.
+local function hint_of(text)
+  local word, rest = text:match "^%s*([%a_][%w_]*)%s+(%S.-)%s*$"
+  if word and not rest:find "[=({]" and type((session.lookup(word))) == "function" then
+    local given = rest:match "^[%w_./-]*$" and not tonumber(rest) and string.format(' "%s"', rest) or "(" .. rest .. ")"
+    return string.format("  what a function is given stands in brackets, or as text in quotes: %s%s", word, given)
+  end
+  if text:match "^%s*[!;]%s*%a" then
+    return string.format("  commands of the system: os.execute %q", (text:match "^%s*[!;]%s*(.-)%s*$"))
+  end
+  if text:match "^%s*%%%a" then return "  help() lists what can be typed" end
+end
+
+local told = {}
+
+local function is_parameters(value) return require("tunica.prompt.values").kind(value) == "parameters" end
+
+--- `D = 2` where a parameter has that name makes a variable of the prompt, which the model does not see: said once.
+local function tell_variable(text)
+  local name = text:match "^%s*([%a_][%w_]*)%s*=[^=]"
+  local P = name and not told[name] and rawget(names, "P")
+  if not P or not is_parameters(P) then return end
+  for key in pairs(P) do
+    if key == name then
+      told[name] = true
+      print(screen.fold(string.format("%s is a variable of yours now; the model's parameter is P.%s", name, name)))
+    end
+  end
+end
+
 local leaving = false
 
 --- quit(): leaves at the end of this input.
@@ -297,6 +329,8 @@ function session.turn(text, last)
   inputs = inputs + 1
   if not fn then
     complain(kind == "more" and select(2, load(text, "=" .. name)) or kind)
+    local hint = hint_of(text)
+    if hint then io.stderr:write(screen.fold(hint), "\n") end
     return "failed"
   end
   session.commands()
@@ -305,6 +339,7 @@ function session.turn(text, last)
   local ok = run(fn, name, hides == 0, kind)
   if desk then desk.end_line(ok) end
   session.settle_variables()
+  if ok then tell_variable(text) end
   return leaving and "leave" or ok and "done" or "failed"
 end
 

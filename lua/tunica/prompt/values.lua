@@ -36,7 +36,7 @@ local function first_sentence(doc) return doc:match "^(.-%.)%s" or doc end
 
 local function of_function(fn)
   local entry = entry_of(fn)
-  if entry then return "function " .. entry.name .. ": " .. first_sentence(entry.doc) end
+  if entry then return "function " .. entry.name:gsub("^prompt%.", "") .. ": " .. first_sentence(entry.doc) end
   local about = debug.getinfo(fn, "S")
   if about.what == "C" or about.source:sub(1, 8) == "=tunica/" then return "function of the library" end
   return string.format("function at %s:%d", about.short_src, about.linedefined)
@@ -114,7 +114,8 @@ function values.brief(value, depth)
   if kind == "string" then return '"' .. screen.printable(screen.cut(value, 60)) .. '"' end
   if kind == "function" then return of_function(value) end
   if (kind == "table" or kind == "userdata") and has_text(value) then
-    return screen.printable(screen.cut(safely(tostring, value) or "a " .. kind, 200))
+    local text = safely(tostring, value) or "a " .. kind
+    return screen.printable(screen.cut(text:match "^%s*([^\n]+)" or text, 200))
   end
   if kind == "table" then return safely(brief_table, value, depth or 0) or "a table" end
   return tostring(value)
@@ -160,8 +161,9 @@ function column_meta.__tostring(column)
   local text = string.format("column %s: %d %ss, %s to %s, mean %s", column.name, column.count, column.kind, short(column.min),
     short(column.max), short(column.mean))
   if column.max == column.min then return text end
-  return text .. "\n  " .. short(column.min) .. " " .. sparkline(histogram(column.values, column.min, column.max, 32)) .. " " ..
-    short(column.max)
+  local low, high = short(column.min), short(column.max)
+  local bins = math.max(8, math.min(32, screen.width() - #low - #high - 5))
+  return text .. "\n  " .. low .. " " .. sparkline(histogram(column.values, column.min, column.max, bins)) .. " " .. high
 end
 
 local function range_text(tissue, kind, name)
@@ -246,8 +248,14 @@ local function parameter_lines(P)
     widest = math.max(widest, math.min(30, screen.length(text)))
   end
   for i, row in ipairs(rows) do
-    lines[i] = row[1] .. string.rep(" ", widest - screen.length(row[1]) + 2) .. screen.paint("dim", row[2])
-    if row[2] == "" then lines[i] = row[1] end
+    local doc, room = row[2], screen.width() - widest - 2
+    if room >= 16 then doc = screen.wrap(doc, room) or "" end
+    for line in doc:gmatch "[^\n]+" do
+      local left = lines[i] and "" or row[1]
+      lines[i] = (lines[i] and lines[i] .. "\n" or "") .. left .. (" "):rep(widest - screen.length(left) + 2) ..
+        screen.paint("dim", line)
+    end
+    lines[i] = lines[i] or row[1]
   end
   return lines
 end
@@ -300,12 +308,16 @@ function values.show(value)
   elseif (kind == "table" or type(value) == "userdata") and has_text(value) then
     lines = {}
     for line in (tostring(value) .. "\n"):gmatch "(.-)\n" do lines[#lines + 1] = screen.printable(line) end
-  else lines = { values.brief(value) } end
+  else
+    lines = { values.brief(value) }
+    local command = kind == "function" and (lines[1]:match "^function ([%w_]+):")
+    if command then lines[2] = string.format("%s() calls it; ?%s says what it can be given", command, command) end
+  end
   local width = screen.width()
   for i, line in ipairs(lines) do
     if is_cut then
       lines[i] = screen.cut(line, width)
-    elseif screen.length(line) > width and kind ~= "string" and not line:find("\27", 1, true) then
+    elseif screen.length(line) > width and kind ~= "string" and kind ~= "parameters" then
       local indent = line:match "^%s*"
       lines[i] = indent .. screen.wrap(line, width - #indent, indent .. "  ")
     end

@@ -10,6 +10,7 @@ local params = require "tunica.params"
 local carry = require "tunica.prompt.carry"
 local desk = require "tunica.prompt.desk"
 local history = require "tunica.prompt.history"
+local screen = require "tunica.prompt.screen"
 local script = require "tunica.prompt.script"
 local op, fail = registry.op, registry.fail
 local function say(...) desk.say(...) end
@@ -22,7 +23,8 @@ local loaded = 'load "patterning/ring"\n'
 -- Load and reload -------------------------------------------------------------------------------------------------------
 
 local function describe(model, source)
-  say("%s: %s", source.name, script.header(source.files[1].text).about)
+  local about = script.header(source.files[1].text).about
+  say("%s%s%s", source.name, about ~= "" and ": " or "", about)
   local g = {}
   if desk.inside(model).tissue then g[#g + 1] = "tissue (" .. tostring(model.tissue) .. ")" end
   if model.params then g[#g + 1] = "P" end
@@ -246,7 +248,7 @@ op { name = "prompt.who", doc = "Lists the variables that you, or a model, have 
         end
         text = string.format("%d parameters%s", all, #changed > 0 and "; changed: " .. table.concat(changed, ", ") or "")
       end
-      say("%-" .. width .. "s  %s", name, text)
+      io.write(screen.fold(string.format("%-" .. width .. "s  %s", name, text), width + 2), "\n")
     end
     if #names == 0 then say("nothing yet; load \"patterning/ring\" takes a shipped model") end
     if desk.source then say("the model is from %s", desk.source.path) end

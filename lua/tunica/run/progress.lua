@@ -59,7 +59,8 @@ function progress.update(self, time, size, unit, work)
     due = now - self.shown >= 30 or (tenth > self.tenth and now - self.shown >= 1)
   end
   if not due then return end
-  io.stderr:write(self.terminal and "\r\27[K" or "", line(self, time, size, unit, now), self.terminal and "" or "\n")
+  -- On a terminal without its wrapping of long lines: of two lines only one would be taken off.
+  io.stderr:write(self.terminal and "\r\27[K\27[?7l" or "", line(self, time, size, unit, now), self.terminal and "\27[?7h" or "\n")
   io.stderr:flush()
   self.shown, self.tenth, self.drawn = now, tenth, true
   if now - self.since[1] > 5 then self.since = { now, time, work } end
