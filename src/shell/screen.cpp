@@ -126,6 +126,8 @@ void tell_screen(Session& session) {
   const bool unicode = choose_characters();
   lua_pushboolean(L, isatty(STDOUT_FILENO) && error_is_terminal());
   lua_setfield(L, -2, "terminal");
+  lua_pushboolean(L, isatty(STDOUT_FILENO));
+  lua_setfield(L, -2, "folds");
   lua_pushboolean(L, in_colour(STDOUT_FILENO));
   lua_setfield(L, -2, "colour");
   lua_pushboolean(L, unicode);

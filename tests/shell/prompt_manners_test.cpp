@@ -201,6 +201,8 @@ TEST_F(PromptTest, BreaksLinesAtBlanks) {
   start({"-q"}, {}, 40);
   says("load 'ring'",
        "\nmodel, tissue (tissue: 50 cells, 50\n  walls, no geometry), P now stand for\n  it; help(model) says more\n");
+  start({"-q"}, {{"TERM", "dumb"}}, 40);
+  says("load 'ring'", "\n  walls, no geometry), P now stand for\n");
   says("P", "\nkT = 2            saturation of\n                  transport by the auxin\n");
   says("x = run(20)", "");
   says("who()", "now at t = 20: 1000 steps, 50\n        cells, ");

@@ -261,7 +261,7 @@ local function write_picture(png)
   local name = os.tmpname()
   os.remove(name)
   core.write_atomic(name .. ".png", png)
-  print("picture: " .. name .. ".png")
+  print(screen.fold("no pictures are drawn here; it is in " .. name .. ".png"))
 end
 
 --- The view to draw: options given, else those of the model's view of that name or its first, with `given` laid over them.

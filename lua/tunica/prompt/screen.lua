@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: MIT
 --- What the prompt may write: width, colours, characters beyond ASCII. The program says so at its start; the values here hold
--- where there is no terminal.
+-- where there is no terminal. `folds`: somebody reads along, on however plain a terminal; `terminal`: it can also take a line back.
 
-local screen = { terminal = false, colour = false, unicode = false }
+local screen = { folds = false, terminal = false, colour = false, unicode = false }
 
 --- Columns of the terminal now; the program replaces it.
 function screen.width() return 80 end
@@ -48,7 +48,7 @@ end
 -- `column` blanks, up to where they are taken as they are. Where there is no screen lines stay whole.
 function screen.fold(text, column)
   local width = screen.width()
-  if not screen.terminal then return text end
+  if not screen.folds then return text end
   if column and column > width / 2 then column = nil end
   return (text:gsub("[^\n]+", function(line)
     if screen.length(line) <= width then return nil end
