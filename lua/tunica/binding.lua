@@ -30,7 +30,7 @@ local function untraced_warning(my, r, reason)
     if said == text then return end  -- when the rules were bound before
   end
   my.warnings[#my.warnings + 1] = text
-  io.stderr:write("tunica: ", text, "\n")
+  require("tunica.warnings").write(text)
 end
 
 --- Derived columns first, then what changes: a rate may be written before the columns it reads.

@@ -226,7 +226,7 @@ local function warn(my, text)
     if said == text then return end
   end
   my.warnings[#my.warnings + 1] = text
-  io.stderr:write("tunica: ", text, "\n")
+  require("tunica.warnings").write(text)
 end
 
 --- Compares what was traced with the function itself. Returns nil, or how they differ.

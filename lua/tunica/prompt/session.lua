@@ -32,6 +32,7 @@ local function load_commands()
     end
   end
   commands.tunica = require "tunica"
+  require("tunica.warnings").fold = screen.fold
   local desk = package.loaded["tunica.prompt.desk"]
   if desk then desk.globals = names end
 end
