@@ -12,7 +12,7 @@ local P = tunica.params(shoot.with({ rho_pin0 = 0, rho_pin = 0, pin = 0, initial
   reach = { 0.5, "how far from there cells get it", min = 0 },
   rate = { 15, "how much, for each of these cells", unit = "concentration / time", min = 0 },
   from = { 5, "when it is given first", unit = "time", min = 0 },
-  to = { 8, "when no more", unit = "time", min = 0 },
+  to = { 7, "when no more", unit = "time", min = 0 },
   variant = { "flank", "flank or tip" },
   variants = { flank = {}, tip = { a = 0, reach = 1.2, rate = 40, to = 6 } },
 }))

@@ -10,15 +10,17 @@ local tunica = require "tunica"
 local shoot = require "parts.shoot"
 
 local P = tunica.params(shoot.with({}, {
-  variant = { "fibonacci", "the pattern: fibonacci, distichous, decussate or tricussate" },
+  variant = { "fibonacci", "the pattern: fibonacci (or c4), distichous, decussate or tricussate" },
   variants = {
     fibonacci = {},
-    distichous = { angle = 180, initial = 6, plastochron = 4, radius = 0.9, central = 1.026, growth = 0.11, growth_to = 1.26, r_most = 2.1 },
-    decussate = { jugacy = 2, angle = 90, initial = 8, plastochron = 3, b = 4, radius = 1.95, central = 2.223, growth = 0.11,
-      growth_to = 2.73, r_most = 2, dt = 0.0025 },
-    tricussate = { jugacy = 3, angle = 60, initial = 12, plastochron = 3, b = 4.438, radius = 3.178, central = 3.202, growth = 0.09135,
-      growth_tip = 1.522, growth_to = 3.997, r_most = 2.034, r_rate = 1.71, mu = 0.2059, kI = 0.3801, most = 15.73, rho_pin0 = 2.35,
-      slope = 73.59, dt = 0.0022 },
+    c4 = shoot.c4,
+    distichous = shoot.over(shoot.c4, { angle = 180, initial = 6, plastochron = 4, radius = 0.9, central = 1.026, growth = 0.11,
+      growth_to = 1.26, r_most = 2.1 }),
+    decussate = shoot.over(shoot.c4, { jugacy = 2, angle = 90, initial = 8, plastochron = 3, b = 4, radius = 1.95, central = 2.223,
+      growth = 0.11, growth_to = 2.73, r_most = 2, dt = 0.0025 }),
+    tricussate = shoot.over(shoot.c4, { jugacy = 3, angle = 60, initial = 12, plastochron = 3, b = 4.438, radius = 3.178, central = 3.202,
+      growth = 0.09135, growth_tip = 1.522, growth_to = 3.997, r_most = 2.034, r_rate = 1.71, mu = 0.2059, kI = 0.3801, most = 15.73,
+      rho_pin0 = 2.35, slope = 73.59, dt = 0.0022 }),
   },
 }))
 
