@@ -40,6 +40,7 @@ op { name = "tissue:near", kind = "named", returns = "a list of cells, the neare
     "value, or for model:supply. Distances are those in space. No cell within the radius is refused: the place may be off " ..
     "the tissue.",
   fn = function(self, t)
+    if t.place and t.on then fail("tissue:near: give place = { x, y, z }, or on = apex with theta and a, not both") end
     if not t.radius and not t.count then fail("tissue:near: how near? give a radius, or the count of cells") end
     local x, y, z = place_of(t)
     local found = {}
@@ -91,16 +92,37 @@ print(tissue:max "auxin")]],
     end
     local name, number = t.column .. "_supply", 1
     while taken[name] do number = number + 1 name = t.column .. "_supply" .. number end
-    local column = t.column
-    tissue:cell { [name] = 0 }
-    local function start()
-      local cells = type(t.cells) == "function" and t.cells() or t.cells
+    local column, marks = t.column, name .. "_place"
+    local function check_cells(cells)
       if type(cells) ~= "table" or #cells == 0 then
-        fail("model:supply: 'cells' must be a list of cells, or a function that returns one; came %s",
-          type(cells) == "table" and "an empty list" or core.describe(cells))
+        fail("model:supply: 'cells' must be a list of cells%s; came %s", type(t.cells) == "function" and ", returned by the function" or
+          ", or a function that returns one", type(cells) == "table" and "an empty list" or core.describe(cells))
       end
       for _, c in ipairs(cells) do
         if core.kind(c) ~= "cell" then fail("model:supply: 'cells' holds %s, which is no cell", core.describe(c)) end
+        if c.alive and core.tissue_of(c) ~= tissue then fail("model:supply: 'cells' holds a cell of another tissue") end
+      end
+    end
+    local later = from > model.time and type(t.cells) == "table"
+    if type(t.cells) == "table" then check_cells(t.cells) end
+    tissue:cell { [name] = 0 }
+    if later then  -- daughters inherit the mark until it starts
+      tissue:cell { [marks] = 0 }
+      for _, c in ipairs(t.cells) do
+        if c.alive then c[marks] = 1 end
+      end
+    end
+    local function start()
+      if later then
+        for c in tissue:cells() do
+          if c[marks] > 0 then c[name] = t.rate end
+        end
+        return
+      end
+      local cells = t.cells
+      if type(cells) == "function" then
+        cells = cells()
+        check_cells(cells)
       end
       for _, c in ipairs(cells) do
         if c.alive then c[name] = t.rate end

@@ -173,8 +173,8 @@ op { name = "curve:save", args = { file }, fn = function(self, path) core.save_c
 
 op { name = "tunica.apex", kind = "named", returns = "an apex", source = "thesis 3.3, equations 3.1 and 3.2",
   args = {
-    { name = "profile", type = "contour|string|list", default = "dome",
-      doc = "the curve that turns around the y axis, from the tip down: a contour, its name or file, or points" },
+    { name = "profile", type = "contour|string|list",
+      doc = "the curve that turns around the y axis, from the tip down: a contour, its name or file, or points; 'dome' if left out" },
     { name = "cap", type = "list", of = "number", count = { 2, 3 },
       doc = "instead of a profile: { radius, slope }, a part of a sphere down to where it falls by `slope` degrees, and from " ..
         "there a straight flank; its length, if it matters, is the third (30 radii if left out)" },
@@ -185,7 +185,8 @@ op { name = "tunica.apex", kind = "named", returns = "an apex", source = "thesis
     "arc length from the tip. With growth it moves away from the tip at the speed v(a), the integral of the rate from 0 to " ..
     "a; theta stays, and so does the form of the surface. Beyond its end the profile goes straight on. An apex never changes.",
   fn = function(t)
-    local profile, growth = t.profile, t.growth
+    if t.cap and t.profile then fail("tunica.apex: give a profile or a cap, not both") end
+    local profile, growth = t.profile or "dome", t.growth
     if t.cap then
       profile = { t.cap[1], t.cap[2], t.cap[3] or 30 * t.cap[1] }
     else

@@ -356,6 +356,8 @@ op { name = "tissue:pair", kind = "named", returns = "two cells, the one with mo
       local given = t.where[name]
       local low, high = given, given
       if type(given) == "table" then low, high = given[1], given[2] end
+      if low == -math.huge then low = -1e300 end
+      if high == math.huge then high = 1e300 end
       if type(low) ~= "number" or type(high) ~= "number" or not (low <= high) then
         fail("tissue:pair: the condition on '%s' must be a number, or { low, high } with low <= high, came %s", name, core.describe(given))
       end

@@ -12,6 +12,7 @@ local P = tunica.params(shoot.with({}, {
   count = { 5, "how many cells are removed there", min = 0, max = 1000 },
 }))
 
+if P.count ~= math.floor(P.count) then error("count must be a whole number, came " .. P.count, 0) end
 local my = shoot.apex(P)
 local model = shoot.model(my)
 shoot.report(my)

@@ -25,7 +25,7 @@ if P.npa_leaves < 1 then
 end
 model:report {
   highest = function() return my.tissue:max "auxin" end,
-  last = function() return #my.primordia > 0 and my.primordia[#my.primordia].time or 0 end,
+  last = function() return #my.primordia > 0 and my.primordia[#my.primordia].time + 0 or 0 end,
 }
 
 return model

@@ -4,23 +4,23 @@
 -- HOW     PIN1 goes to walls by their length and, exponentially, by the auxin behind them (5.7); PIN1 and auxin are made and decay
 --         (5.8, 5.9). Primordia make more auxin, polarize PIN1 towards their centre (5.10, 5.11) and drain what is above a limit.
 -- TRY     variant=distichous   variant=decussate   variant=tricussate   initial=0 (no primordia at the start)
---         r_birth=0.5 r_most=0.6 (primordia that stay small: no spiral)   scatter=8 (a disturbed start)   dt=0.02 (fails)
+--         r_birth=0.5 r_most=0.6 (primordia that stay small: no spiral)   scatter=8 (a disturbed start)   dt=0.02 (fails)   height=0.5 (primordia bulge)
 -- SOURCE  R. S. Smith, PhD thesis, University of Calgary 2007, section 5.5, figs 5.8-5.11, table 5.1
 local tunica = require "tunica"
 local shoot = require "parts.shoot"
 
 local P = tunica.params(shoot.with({}, {
-  variant = { "fibonacci", "the pattern: fibonacci (or c4), distichous, decussate or tricussate" },
+  variant = { "fibonacci", "the pattern: fibonacci, distichous, decussate or tricussate" },
   variants = {
     fibonacci = {},
-    c4 = shoot.c4,
-    distichous = shoot.over(shoot.c4, { angle = 180, initial = 6, plastochron = 4, radius = 0.9, central = 1.026, growth = 0.11,
-      growth_to = 1.26, r_most = 2.1 }),
-    decussate = shoot.over(shoot.c4, { jugacy = 2, angle = 90, initial = 8, plastochron = 3, b = 4, radius = 1.95, central = 2.223,
-      growth = 0.11, growth_to = 2.73, r_most = 2, dt = 0.0025 }),
-    tricussate = shoot.over(shoot.c4, { jugacy = 3, angle = 60, initial = 12, plastochron = 3, b = 4.438, radius = 3.178, central = 3.202,
+    distichous = { angle = 180, initial = 6, plastochron = 4, radius = 0.9, central = 1.026, growth = 0.11,
+      growth_to = 1.26, r_most = 2.1 },
+    decussate = { jugacy = 2, angle = 90, initial = 8, plastochron = 3, b = 4.171, radius = 1.949, central = 2.275, growth = 0.109,
+      growth_tip = 1.366, growth_to = 2.802, r_most = 2.122, r_rate = 1.262, mu = 0.2301, kI = 0.359, most = 15.99, rho_pin0 = 2.52,
+      slope = 75.12, dt = 0.0022 },
+    tricussate = { jugacy = 3, angle = 60, initial = 12, plastochron = 3, b = 4.438, radius = 3.178, central = 3.202,
       growth = 0.09135, growth_tip = 1.522, growth_to = 3.997, r_most = 2.034, r_rate = 1.71, mu = 0.2059, kI = 0.3801, most = 15.73,
-      rho_pin0 = 2.35, slope = 73.59, dt = 0.0022 }),
+      rho_pin0 = 2.35, slope = 73.59, dt = 0.0022 },
   },
 }))
 

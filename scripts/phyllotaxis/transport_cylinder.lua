@@ -61,6 +61,11 @@ local P = tunica.params {
   method = "euler",
 }
 
+for _, name in ipairs { "central", "seeds", "jugacy", "settling" } do
+  if P[name] ~= math.floor(P[name]) then error(name .. " must be a whole number, came " .. P[name], 0) end
+end
+if P.jugacy > 20 then error("jugacy: there are at most 20 primordia in a whorl here, came " .. P.jugacy, 0) end
+
 --- Ring and angle of the peak k of those at the start; 0 is the youngest.
 local function seed(k)
   return math.floor(P.central + P.first + k * P.apart + 0.5), -k * P.angle % 360

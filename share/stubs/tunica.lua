@@ -1106,7 +1106,7 @@ function tunica.abs(x) end
 function tunica.allowable_interval(options) end
 
 ---@class tunica.apex_options
----@field profile? tunica.contour|string|any[] the curve that turns around the y axis, from the tip down: a contour, its name or file, or points (contour, or text or list of items; "dome" if not given)
+---@field profile? tunica.contour|string|any[] the curve that turns around the y axis, from the tip down: a contour, its name or file, or points; 'dome' if left out (contour, or text or list of items)
 ---@field cap? number[] instead of a profile: { radius, slope }, a part of a sphere down to where it falls by `slope` degrees, and from there a straight flank; its length, if it matters, is the third (30 radii if left out) (list of 2 to 3 items, each a number)
 ---@field growth? number|tunica.curve|string|any[] relative elemental growth rate along the profile, by arc length from the tip: a number, a curve, its name or file, or points (number or curve, or text or list of items; 1 / time; 1 if not given)
 

@@ -111,17 +111,20 @@ SweepPlan make_plan(SweepModel& model, const SweepOptions& options) {
       varies = varies || range.varies();
       if (!range.varies()) fixed[range.name] = range.values[0];
     }
-    plan.samples = sweep::make_samples(plan.ranges, options.sampling, options.count, options.sampling_seed);
+    // A model as it is, on many seeds, is a grid of one.
+    const bool seeds_only = !varies && options.sampling == Sampling::none && options.refine == 0 && options.seeds.size() > 1;
+    plan.samples = sweep::make_samples(plan.ranges, seeds_only ? Sampling::grid : options.sampling, options.count,
+                                       options.sampling_seed);
   } catch (const Error& error) {
     throw UsageError{error.what()};
   }
   if (options.refine > 0 && std::none_of(plan.ranges.begin(), plan.ranges.end(),
                                          [](const auto& range) { return range.kind == sweep::Range::Kind::interval; }))
     throw UsageError{"--refine moves within ranges (D=3..5), and there is none"};
-  if (options.sampling == Sampling::none && options.refine == 0)
+  if (options.sampling == Sampling::none && options.refine == 0 && plan.samples.empty())
     throw UsageError{varies ? "how are the ranges to be sampled? Say --grid, --random N, --sobol N or --refine N"
                             : "nothing varies: give a parameter a range (D=3..5) or a list (D=3,4,5), and say --grid, "
-                              "--random N, --sobol N or --refine N"};
+                              "--random N, --sobol N or --refine N; or several --seeds"};
   if (fixed.size() > plain.size()) plan.about = model.describe(fixed, options.until, options.time_limit);
   return plan;
 }

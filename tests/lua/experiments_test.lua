@@ -24,6 +24,8 @@ check.fails(function() tissue:near { { 9, 9, 9 }, radius = 0.1 } end, "off the t
 check.fails(function() tissue:near { { 0, 0, 0 } } end, "how near")
 check.fails(function() tissue:near { theta = 3, a = 1, radius = 1 } end, "give place")
 check.fails(function() tissue:near { { 0, 0 }, theta = 3, radius = 1 } end, "give place")
+check.fails(function() tissue:near { { 0, 0 }, on = apex, radius = 1 } end, "not both")
+check.fails(function() tunica.apex { cap = { 1, 60 }, profile = "dome" } end, "not both")
 
 -- Supply: exact for a constant rate without decay, for some time, inherited when cells divide.
 local sheet = tunica.sheet { cells = 30, seed = 1 }
@@ -41,11 +43,22 @@ for c in sheet:cells() do
   if math.abs(c.auxin - 11) < 1e-9 then supplied = supplied + 1 end
 end
 check.equal(supplied, 3)  -- the third cell and both daughters of the second
+check.fails(function() model:supply { "auxin", rate = 1, cells = tissue:near { { 0, 0, 0 }, count = 1 } } end, "another tissue")
+check.fails(function() model:supply { "auxin", rate = 1, cells = function() end } end, "returned by the function; came nil")
+local fourth = sheet:near({ { 2, 0 }, count = 1 })[1]
+model:supply { "auxin", rate = 100, cells = { fourth }, from = 5, to = 6 }
+model:at(4.5, function() fourth:divide() end)
+model:advance(6.5)
+local given = 0
+for c in sheet:cells() do
+  if c.auxin > 90 then given = given + 1 end
+end
+check.equal(given, 2)  -- both daughters of a cell that has divided meanwhile
 check.fails(function() model:supply { "auxn", rate = 1, cells = cells } end, "did you mean 'auxin'")
 check.fails(function() model:supply { "auxin", rate = 1, cells = {} } end, "empty list")
 check.fails(function() model:supply { "auxin", rate = 1, cells = { 3 } } end, "no cell")
-check.fails(function() model:supply { "auxin", rate = 1, cells = cells, from = 1 } end, "at 4 already")
-check.fails(function() model:supply { "auxin", rate = 1, cells = cells, from = 5, to = 5 } end, "after 'from'")
+check.fails(function() model:supply { "auxin", rate = 1, cells = cells, from = 1 } end, "at 6.5 already")
+check.fails(function() model:supply { "auxin", rate = 1, cells = cells, from = 8, to = 8 } end, "after 'from'")
 
 -- A view that is a plot
 model:view { name = "curve", plot = function(t) return { y = { 1, 3, 2 }, xlabel = "n", title = "at " .. t } end }

@@ -167,6 +167,11 @@ sleep 0.7
 code 2 sweep a=0..5 wait=0.5 --random 12 --out busy.db
 says err.txt "in use"
 wait $process
+# A model as it is, on many seeds.
+code 0 sweep a=2 --seeds 1..5 --score mean --out seeds.db -q
+[ "$(table seeds.db | wc -l)" -eq 11 ] || wrong "5 seeds and as many fresh ones make $(table seeds.db | wc -l) lines with the head"
+code 2 sweep a=2 --out nothing.db
+says err.txt "or several --seeds"
 # More samples and seeds may be added: the first stay.
 code 0 sweep a=0..5 --sobol 8 --out more.db -q
 code 0 sweep a=0..5 --sobol 16 --seeds 1..2 --out more.db -q

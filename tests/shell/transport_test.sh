@@ -17,7 +17,7 @@ run() { # model arguments: without pictures
 run pin1_mutant --until 30
 between primordia 0 0
 between highest 5 7.4
-says out.txt "auxin outside primordia is 6"
+says out.txt "outside primordia is 6"
 run pin1_mutant variant=npa --until 20
 between last 4 9
 for seed in 1 2 3; do
@@ -50,6 +50,11 @@ code 1 "$tunica" phyllotaxis/transport_apex Th=1 --until 3 --no-frames -q --out 
 says err.txt "primordia start at once"
 code 1 "$tunica" phyllotaxis/transport_apex r_birth=3 --until 3 --no-frames -q --out bad5
 says err.txt "greater than r_most"
+for bad in initial=2.5 jugacy=1.5 most=800 max_area=1000 max_area=0.0001; do
+  code 1 "$tunica" phyllotaxis/transport_apex $bad --until 1 --no-frames -q --out bad6
+  says err.txt "${bad%=*}"
+  rm -rf bad6
+done
 code 3 "$tunica" phyllotaxis/transport_apex dt=0.02 --until 10 --no-frames -q --out long
 says err.txt "try a smaller dt"
 code 2 "$tunica" phyllotaxis/transport_apex variant=decusate --no-frames -q

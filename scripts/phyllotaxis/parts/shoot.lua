@@ -13,37 +13,37 @@ function shoot.parameters()
     D = { 4, "diffusion", min = 0 },
     b = { 3, "base of the allocation of PIN1 to walls", min = 1 },
     power = { 2, "of auxin in transport", min = 0.5, max = 4 },
-    kT = { 1.126, "saturation of transport", min = 0 },
+    kT = { 1.069, "saturation of transport", min = 0 },
     rho_proximal = { 3, "production of auxin outside the central zone", min = 0 },
     rho_peripheral = { 3, "more of it in the peripheral zone", min = 0 },
     rho_primordium = { 3.5, "more of it in a primordium, falling off from its centre", min = 0 },
-    kI = { 0.395, "saturation of the production of auxin", min = 0 },
-    mu = { 0.1872, "decay of auxin", min = 0 },
-    most = { 16.65, "auxin at which a primordium drains into the tissue below", min = 0 },
+    kI = { 0.343, "saturation of the production of auxin", min = 0 },
+    mu = { 0.21, "decay of auxin", min = 0 },
+    most = { 16.57, "auxin at which a primordium drains into the tissue below", min = 0 },
     drain = { 100, "speed at which what is above that leaves", unit = "1 / time", min = 0 },
-    rho_pin0 = { 2.344, "production of PIN1", min = 0 },
-    rho_pin = { 0.5377, "production of PIN1 for each unit of auxin", min = 0 },
+    rho_pin0 = { 2.41, "production of PIN1", min = 0 },
+    rho_pin = { 0.536, "production of PIN1 for each unit of auxin", min = 0 },
     kP = { 1, "saturation of that production", min = 0 },
-    mu_pin = { 1.7474, "decay of PIN1", min = 0 },
+    mu_pin = { 1.813, "decay of PIN1", min = 0 },
     pin = { 0.94, "PIN1 at the start", min = 0 },
     steady_pin = { false, "whether PIN1 stays as it is at the start" },
     Th = { 7.5, "auxin in two neighbours at which a primordium starts", min = 0 },
-    r_birth = { 0.893, "radius of a primordium at birth", min = 1e-3 },
-    r_rate = { 1.11, "speed at which it grows", min = 1e-6 },
-    r_most = { 2.023, "greatest radius", min = 1e-3 },
-    height = { 0.137, "how high a primordium bulges in the end", min = 0 },
-    height_rate = { 0.135, "speed at which it does", unit = "length / time", min = 1e-6 },
-    radius = { 1.504, "of the sphere that the tip of the apex is part of", min = 0.1 },
-    slope = { 78.5, "of the flank", unit = "degrees", min = 5, max = 90 },
-    growth = { 0.1472, "relative elemental growth rate of the flank", unit = "1 / time", min = 1e-6 },
-    growth_tip = { 1.562, "growth rate at the tip, relative to that", min = 0.05 },
-    growth_to = { 2.056, "arc length at which the one goes over into the other", min = 0.1 },
+    r_birth = { 0.88, "radius of a primordium at birth", min = 1e-3 },
+    r_rate = { 1.198, "speed at which it grows", min = 1e-6 },
+    r_most = { 2.097, "greatest radius", min = 1e-3 },
+    height = { 0, "how high a primordium bulges in the end", min = 0 },
+    height_rate = { 0.12, "speed at which it does", unit = "length / time", min = 1e-6 },
+    radius = { 1.452, "of the sphere that the tip of the apex is part of", min = 0.1 },
+    slope = { 74.9, "of the flank", unit = "degrees", min = 5, max = 90 },
+    growth = { 0.1704, "relative elemental growth rate of the flank", unit = "1 / time", min = 1e-6 },
+    growth_tip = { 1.465, "growth rate at the tip, relative to that", min = 0.05 },
+    growth_to = { 2.04, "arc length at which the one goes over into the other", min = 0.1 },
     growth_over = { 0.3, "half of the width over which it does", min = 0.01 },
-    central = { 1.718, "arc length from the tip to the border of the central zone", min = 0 },
-    peripheral = { 3.042, "width of the peripheral zone", min = 0.1 },
+    central = { 1.651, "arc length from the tip to the border of the central zone", min = 0 },
+    peripheral = { 3.063, "width of the peripheral zone", min = 0.1 },
     proximal = { 1.8, "width of what is kept of the proximal zone", min = 0 },
     widening = { 0, "rate at which the zones widen (the apex with them it does not)", unit = "1 / time", min = -1, max = 1 },
-    max_area = { 0.27, "area at which a cell divides", min = 1e-4 },
+    max_area = { 0.283, "area at which a cell divides", min = 1e-4 },
     variation = { 0.1, "of that area from cell to cell", min = 0, max = 0.9 },
     gap = { 0.23, "least distance of a new wall from old junctions, relative to the root of max_area", min = 0, max = 1 },
     pinch = { 0.05, "of the new wall's length, by which each end is drawn inwards", min = 0, max = 0.4 },
@@ -58,20 +58,6 @@ function shoot.parameters()
     dt = { 0.004, "time step", min = 1e-6 },
     method = "euler",
   }
-end
-
---- The set C4: found earlier, by another search on a flat apex. Whorls were found from here.
-shoot.c4 = { max_area = 0.283, radius = 1.452, central = 1.651, peripheral = 3.063, growth = 0.1704, growth_tip = 1.465, growth_to = 2.04,
-  r_birth = 0.88, r_rate = 1.198, r_most = 2.097, height = 0, height_rate = 0.12, mu = 0.21, kI = 0.343,
-  kT = 1.069, most = 16.57, rho_pin0 = 2.41, rho_pin = 0.536, mu_pin = 1.813, slope = 74.9 }
-
---- Values with others put over them.
-function shoot.over(values, others)
-  local out = {}
-  for _, each in ipairs { values, others } do
-    for name, value in pairs(each) do out[name] = value end
-  end
-  return out
 end
 
 --- Declarations with other values: changed { T = 19 }, and with more of them.
@@ -102,6 +88,15 @@ end
 
 --- The apex { surface =, apex =, tissue =, primordia =, P = } with its first primordia; without rules.
 function shoot.apex(P)
+  for _, name in ipairs { "initial", "jugacy" } do
+    if P[name] ~= math.floor(P[name]) then error(name .. " must be a whole number, came " .. P[name], 0) end
+  end
+  local largest = P.most * math.log(P.b)
+  if largest > 300 then error(string.format("b ^ most is beyond all numbers: most is %g, b %g", P.most, P.b), 0) end
+  local cells = P.max_area > 0 and 2 * math.pi * (P.central + P.peripheral + P.proximal) ^ 2 / P.max_area
+  if cells > 100000 then error(string.format("max_area = %g would make some %.0f cells", P.max_area, cells), 0) end
+  if cells < 20 then error(string.format("max_area = %g leaves no room for cells: the apex has an area of some %.3g", P.max_area,
+    cells * P.max_area), 0) end
   if P.r_birth > P.r_most then error("r_birth, the radius at birth, is greater than r_most", 0) end
   local apex = tunica.apex { cap = { P.radius, P.slope }, growth = growth_of(P) }
   local my = { P = P, apex = apex, primordia = {} }
@@ -320,7 +315,7 @@ function shoot.report(my, most)
       for c in my.tissue:cells() do
         if c.primordium == 0 then most = math.max(most, c.auxin) end
       end
-      return string.format("no primordium started: auxin outside primordia is %.4g at most, the threshold %.4g", most, P.Th)
+      return string.format("no primordium started: no two neighbours in the peripheral zone have more than the threshold %.4g; the most anywhere outside primordia is %.4g", P.Th, most)
     end,
     drained = function() return my.tissue:sum "drained" end,  -- amount of auxin, by the cells that are still there
   }
