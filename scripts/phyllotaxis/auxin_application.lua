@@ -1,7 +1,7 @@
 --- Auxin given to the apex of a pin1 mutant.
 -- WHAT    given to the flank, auxin makes one primordium there; given to the tip, a ring of primordia around it.
 -- HOW     pin1_mutant, with auxin supplied to the cells near a place for some time; it spreads by diffusion.
--- TRY     variant=tip   theta=90   rate=3 (too little)   to=20 (others follow)
+-- TRY     variant=tip   theta=90   rate=3 (too little)   to=20 (others follow)   height=0.4 (the ring to be seen)
 -- SOURCE  R. S. Smith, PhD thesis, University of Calgary 2007, section 5.5.3, figs 5.12b and 5.12c
 local tunica = require "tunica"
 local shoot = require "parts.shoot"
