@@ -126,22 +126,90 @@ end
 
 course.functions_of = functions_of
 
+-- What a script (or someone at the prompt) adds to a model, in the order of adding; each with its name for messages.
+local lists = { { "rules", "rules" }, { "events", "events" }, { "conditions", "conditions (when)" }, { "reports", "reports" } }
+
+--- What has been added until now: { rules =, events =, conditions =, reports = }, copies of the lists.
+function course.added(my)
+  local copy = {}
+  for _, list in ipairs(lists) do copy[list[1]] = { unpack(my[list[1]]) } end
+  return copy
+end
+
+local function set_list(my, name, items)
+  local list = my[name]
+  local same = #list == #items
+  for i, item in ipairs(items) do same = same and rawequal(list[i], item) end
+  if same then return end
+  for i = #list, 1, -1 do list[i] = nil end
+  for i, item in ipairs(items) do list[i] = item end
+  if name == "rules" then my.unbound = true end
+end
+
+--- Makes what course.added() gave the model's own again. Its rules are bound when a snapshot of that time is restored, which must
+-- follow. Inhibitions of a model of phyllotaxis stay: its engine cannot lose them.
+function course.put(my, added)
+  for _, list in ipairs(lists) do
+    if not (list[1] == "rules" and my.engine) then set_list(my, list[1], added[list[1]]) end
+  end
+end
+
+--- How many there are in what course.save() gave, decoded; nil where it does not say.
+local function counts_of(script)
+  return { rules = script.rules, events = #script.fired, conditions = #script.holds, reports = script.reports }
+end
+course.counts_of = counts_of
+
+--- What was added after course.save() gave `script`, as text by kind ("2 rules (rate, x.lua:3; ...)"); nil if nothing was.
+function course.later(my, script)
+  local counts, found = counts_of(script), {}
+  for _, list in ipairs(lists) do
+    local name, words = list[1], {}
+    for i = (counts[name] or #my[name]) + 1, #my[name] do
+      local item = my[name][i]
+      words[#words + 1] = name == "rules" and string.format("%s, %s", item.what, item.where)
+        or name == "events" and string.format(item.kind == "after" and "%s %d primordia" or "%s %.6g", item.kind, item.time)
+        or name == "reports" and item.name or nil
+    end
+    local count = #my[name] - (counts[name] or #my[name])
+    if count > 0 then
+      found[#found + 1] = string.format("%d %s%s", count, count == 1 and list[2]:gsub("s%f[%A]", "", 1) or list[2],
+        #words > 0 and " (" .. table.concat(words, "; ", 1, math.min(#words, 4)) .. (#words > 4 and "; ..." or "") .. ")" or "")
+    end
+  end
+  return #found > 0 and table.concat(found, ", ") or nil
+end
+
 --- Events, conditions, parameters and the plain values that functions keep, as text.
 function course.save(my)
   local fired, holds = {}, {}
   for i, e in ipairs(my.events) do fired[i] = e.fired end
   for i, c in ipairs(my.conditions) do holds[i] = c.holds end
-  return plain.encode { fired = fired, holds = holds, params = course.values_of(my), data = my.tissue and my.tissue.data,
+  return plain.encode { fired = fired, holds = holds, rules = #my.rules, reports = #my.reports,
+    params = course.values_of(my), data = my.tissue and my.tissue.data,
     upvalues = plain.upvalues(functions_of(my)), globals = plain.globals() }
 end
 
---- Fails unless the text is of a model with as many events and conditions.
-function course.check(my, text)
+--- Fails unless the text is of this model. What a model that has begun was given since goes; another must have as many rules,
+-- events, conditions and reports.
+function course.check(my, text, begun)
   local script = plain.decode(text, my.tissue)
-  if type(script) ~= "table" or #script.fired ~= #my.events or #script.holds ~= #my.conditions then
-    fail("the snapshot is of another script: it has %d events, the model %d", type(script) == "table" and #script.fired or 0,
-      #my.events)
+  if type(script) ~= "table" then fail "the snapshot is damaged: it tells of no events" end
+  local counts, kept = counts_of(script), course.added(my)
+  for _, list in ipairs(lists) do
+    local name, words = list[1], my.engine and list[1] == "rules" and "inhibitions" or list[2]
+    local there, now = counts[name] or #my[name], #my[name]
+    if there > now then
+      fail("the snapshot has %d %s, the model %d: it is of another script, or of this model when more had been added to it", there,
+        words, now)
+    elseif there < now and not begun then
+      fail("the snapshot is of another script: it has %d %s, the model %d", there, words, now)
+    elseif there < now and words == "inhibitions" then
+      fail("the snapshot has %d %s, the model %d, and cannot lose them; load it anew", there, words, now)
+    end
+    for i = now, there + 1, -1 do kept[name][i] = nil end
   end
+  course.put(my, kept)
 end
 
 --- Goes back to what save() gave.
@@ -149,9 +217,7 @@ function course.restore(my, text)
   local script = plain.decode(text, my.tissue)
   for i, e in ipairs(my.events) do e.fired = script.fired[i] end
   for i, c in ipairs(my.conditions) do c.holds = script.holds[i] end
-  if my.params then
-    for name, value in pairs(script.params) do my.params[name] = value end
-  end
+  if my.params then params.go_back(my.params, script.params) end
   if my.tissue then plain.refill(my.tissue.data, script.data) end
   plain.set_upvalues(functions_of(my), script.upvalues)
   plain.set_globals(script.globals)

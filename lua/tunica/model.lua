@@ -266,18 +266,25 @@ op { name = "model:snapshot", returns = "text", example = diffusion .. "print(#m
   end }
 
 op { name = "model:restore", changes = true, args = { { name = "snapshot", type = "string", required = true, doc = "what model:snapshot() gave" } },
-  doc = "Goes back to a snapshot of the same script. The method stays the one in use (model:solve_with).", example = diffusion .. "local s = model:snapshot() model:advance(1) model:restore(s) print(model.time)",
+  doc = "Goes back to a snapshot of the same script. Rules, events and reports that the model was given since go. The method stays the one in use (model:solve_with).", example = diffusion .. "local s = model:snapshot() model:advance(1) model:restore(s) print(model.time)",
   fn = function(model, bytes)
     local my = inside[model]
     local parts = core.unpack(bytes)
     if not (parts.tissue and parts.machine and parts.script and parts.random) then fail("this is no snapshot of a model") end
-    prepare(my)
-    course.check(my, parts.script)
+    local begun = my.machine ~= nil
+    if not my.unbound then prepare(my) end
+    course.check(my, parts.script, begun)
+    if my.unbound then  -- rules have gone, or come again: they are bound to the tissue of the snapshot
+      if my.busy then fail("a model cannot be restored from inside its own rules") end
+      settle(my)
+      my.machine, my.set, my.stale, my.unbound = nil, nil, true, nil
+    end
     core.tissue_load(my.tissue, parts.tissue)
     core.random_state(parts.random)
     course.restore(my, parts.script)  -- handles are of the tissue that is now there
     settle(my)
     my.spent = {}
+    if not my.machine then prepare(my) end
     core.machine_load(my.machine, parts.machine)
     prepare(my)  -- may bind the rules anew
     core.machine_load(my.machine, parts.machine)

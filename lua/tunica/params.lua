@@ -91,13 +91,31 @@ function meta.__index(P, name)
   return value
 end
 
-function meta.__newindex(P, name, value)
+--- Variants stand for values that were the defaults when the script was read: the name alone would change nothing.
+local function check_variant(my, value)
+  local spec = my.declared.variant
+  if not spec.choices or value == my.values.variant or type(value) ~= "string" then return end
+  for _, name in ipairs(spec.choices) do
+    if name == value then
+      fail("variants are chosen on loading: %s", my.loaded_as and string.format("load { %q, variant = %q }", my.loaded_as, value)
+        or "on the command line, variant=" .. value)
+    end
+  end
+  fail("there is no variant '%s'%s; there are: %s", value, core.did_you_mean(value, spec.choices), table.concat(spec.choices, ", "))
+end
+
+local function assign(P, name, value)
   local my = inside[P]
   if my.values[name] == nil then unknown(P, name) end
   if core.in_rule() then fail("parameter '%s' cannot be set in a rule; rules only compute", name) end
   local wrong = complaint(my.declared[name], value)
   if wrong then fail("parameter '%s': %s", name, wrong) end
   my.values[name] = value
+end
+
+function meta.__newindex(P, name, value)
+  if name == "variant" and inside[P].declared.variant then check_variant(inside[P], value) end
+  assign(P, name, value)
 end
 
 function meta.__pairs(P) return pairs(inside[P].values) end
@@ -212,6 +230,14 @@ function params.forget(P) current = P end
 
 --- True if the value is a table of parameters.
 function params.is(value) return inside[value] ~= nil end
+
+--- Goes back to values that P had, name -> value.
+function params.go_back(P, values)
+  for name, value in pairs(values) do assign(P, name, value) end
+end
+
+--- Tells by which name the prompt has loaded the script of P.
+function params.loaded_as(P, name) inside[P].loaded_as = name end
 
 --- The table of values behind P: name -> number, boolean or string.
 function params.values(P) return inside[P].values end

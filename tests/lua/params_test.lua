@@ -45,6 +45,11 @@ assert(P.T == 22.5 and P.variant == "a" and params.declared(P).variant.choices[2
 params.forget()
 P = params.declare { T = { 22.5, "transport" }, variant = { "b", "which" }, variants = { a = {}, b = { T = 3 } } }
 assert(P.T == 3 and params.declared(P).T.default == 3)
+fails(function() P.variant = "a" end, "variants are chosen on loading: on the command line, variant=a")
+fails(function() P.variant = "c" end, "no variant 'c'")
+P.variant = "b"
+params.go_back(P, { variant = "a", T = 4 })
+assert(P.variant == "a" and P.T == 4)
 params.forget()
 P = params.declare { variants = { 5, "a number by this name" } }
 assert(P.variants == 5)

@@ -265,6 +265,102 @@ tell('save "' .. file .. '"', "kept")
 tell('restore "' .. file .. '"', "t = 6")
 check.equal(g.model:hash(), hash)
 
+-- Rules and events added at the prompt: undo and redo take them along; a session cannot hold them.
+line 'load "ring"'
+line "model:advance(1)"
+local plain_hash, rule_count = g.model:hash(), tonumber(tostring(g.model):match "(%d+) rules")
+line 'model:supply { "auxin", rate = 5, cells = { tissue:find(3) }, to = 1.5 }'
+line "model:advance(2)"
+local supplied = g.model:hash()
+refused('save "' .. file .. '.none"', "put them into the script first", "1 rule (rate, ", "1 event (at 1.5)")
+assert(not core.kind_of(file .. ".none"))
+tell("undo()", "model:advance(2)", "t = 1")
+tell("undo()", "model:supply", "t = 1")
+check.equal(g.model:hash(), plain_hash)
+tell('save "' .. file .. '"', "kept")
+tell("redo()", "again: model:supply")
+tell("redo()", "again: model:advance(2)", "t = 2")
+check.equal(g.model:hash(), supplied, "after redo")
+line "undo()"
+line "model:advance(2)"
+check.equal(g.model:hash(), supplied, "run after undo")
+line "undo()"
+line "undo()"
+line "model:every(0.5, function() end)"
+line "model:when(function(t) return t > 1.2 end, function() end)"
+line "model:rate(function(c, d) d.auxin = 0.001 end)"
+line "model:report { most = function() return 1 end }"
+line "model:advance(1.5)"
+refused('save "' .. file .. '"', "1 event (every 0.5)", "1 condition (when)", "1 rule (rate, ", "1 report (most)")
+local more = g.model:snapshot()
+tell("undo(5)", "t = 1")
+check.equal(g.model:hash(), plain_hash, "rules, events, conditions and reports have gone")
+check.equal(tonumber(tostring(g.model):match "(%d+) rules"), rule_count)
+g.more = more
+refused("model:restore(more)", "the snapshot has " .. rule_count + 1 .. " rules, the model " .. rule_count)
+g.more = nil
+check.equal(g.model:hash(), plain_hash)
+line "redo()"
+line "redo()"
+line "model:advance(3)"  -- with what has come again
+line "undo()"
+-- a rule with a mistake can be taken back, too
+line "model:rate(function(c, d) d.auxin = c.auxn end)"
+refused("model:advance(2)", "auxn")
+tell("undo()", "model:rate(function(c, d) d.auxin = c.auxn end)")
+line "model:advance(2)"
+tell("reload()", "not kept, for the script does not make them: ", "1 event (every 0.5)", "1 condition (when)")
+tell('save "' .. file .. '"', "kept")
+
+-- A snapshot goes back also by itself; one that a fresh model cannot have made is refused.
+line 'load "ring"'
+line "model:advance(1)"
+line "mark = model:snapshot()"
+line "model:every(1, function() end)"
+line "model:advance(2)"
+line "model:restore(mark)"
+assert(g.model.time == 1)
+line 'load "ring"'
+line "model:restore(mark)"
+line 'load "ring"'
+line "model:every(1, function() end)"
+line "mark = nil"
+
+-- Inhibitions stay: that is told, and the rest can be gone back to.
+line 'load "noise"'
+line "model:advance(3)"
+line "model:every(1, function() end)"
+line "model:advance(4)"
+line "undo(2)"
+tell('save "' .. file .. '"', "kept")
+line "model:inhibition { field = function(d) return math.exp(-d) end, below = 100 }"
+line "model:advance(4)"
+line "undo()"
+hash = g.model:hash()
+refused("undo()", "undo: the state before 'model:inhibition", "cannot lose them")
+check.equal(g.model:hash(), hash)
+for _ = 1, 20 do
+  if not pcall(line, "undo()") then goto continue end
+  if rawget(g, "model") and g.model.time < 3 or said:find "load" then break end
+  ::continue::
+end
+says("undo()", "load phyllotaxis/noise")
+
+-- Variants stand for values that are chosen on loading.
+line 'load "transport_apex"'
+local chosen = 'variants are chosen on loading: load { "phyllotaxis/transport_apex", variant = "decussate" }'
+refused('set { D = 2, variant = "decussate" }', chosen)
+refused('P.variant = "decussate"', chosen)
+refused('P.variant = "decusate"', "no variant 'decusate'", "did you mean 'decussate'")
+refused("P.variant = 3", "expected a string")
+assert(g.P.variant == "fibonacci" and g.P.D ~= 2)
+line "P.variant = P.variant"
+line 'load { "phyllotaxis/transport_apex", variant = "decussate" }'
+assert(g.P.variant == "decussate" and g.P.jugacy == 2)
+tell("undo()", "load")
+assert(g.P.variant == "fibonacci")
+line 'load "ring"'
+
 -- Edit: of a shipped model a copy is made, and taken.
 local editor = os.getenv "EDITOR"
 if not os.getenv "VISUAL" and editor == "true" then tell("edit()", "nothing was changed") end

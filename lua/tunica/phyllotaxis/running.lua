@@ -220,8 +220,9 @@ op { name = "phyllotaxis:restore", changes = true,
     local my = inside[model]
     local parts = core.unpack(bytes)
     if not (parts.inhibition and parts.script and parts.random) then fail "this is no snapshot of a model of phyllotaxis" end
+    local begun = my.started
     prepare(my)
-    course.check(my, parts.script)
+    course.check(my, parts.script, begun)
     core.random_state(parts.random)
     course.restore(my, parts.script)
     prepare(my)  -- may bind the fields anew

@@ -150,6 +150,8 @@ function carry.over(old_model, new_model, changed)
     registry.fail "the script makes another kind of model now; load it anew"
   end
   local notes, time, at_present = {}, old_model.time, course.save(old)
+  local added = desk.added(old_model)
+  if added then notes[#notes + 1] = "not kept, for the script does not make them: " .. added end
   if old.tissue then carry_tissue(old, new, notes) end
   carry_parameters(old, new, begun, notes)
   local now = plain.decode(at_present, new.tissue)

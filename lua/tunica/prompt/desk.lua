@@ -82,7 +82,11 @@ function desk.take(model, source)
   if not model.name then model.name = (source and source.name or "typed"):match "[^/]*$" end
   g.model, g.tissue, g.P = model, desk.inside(model).tissue, model.params
   desk.source = source
+  if model.params and source then params.loaded_as(model.params, source.name) end
 end
+
+--- What the model has been given since its script was run, as text; nil if nothing.
+function desk.added(model) return course.later(desk.inside(model), begun[model].script) end
 
 --- Parameters of the model at hand that are not as the file has them: name -> value.
 function desk.changed_parameters(model)

@@ -1,9 +1,11 @@
 -- SPDX-License-Identifier: MIT
 --- States to go back to. A state is kept before what changes the model at hand: a run, a step, an operation, a parameter. It
--- holds the model's snapshot, and which model it was. All together they take at most `history.bytes`; the oldest go first.
+-- holds the model's snapshot with its rules and events, and which model it was. All together they take
+-- at most `history.bytes`; the oldest go first.
 
 local core = require "tunica.core"
 local registry = require "tunica.registry"
+local course = require "tunica.course"
 local desk = require "tunica.prompt.desk"
 
 local history = {
@@ -34,8 +36,8 @@ local function take(what, force)
   if not ok then return nil end
   cost = core.now() - began
   local g = desk.globals
-  return { what = what, model = model, snapshot = snapshot, source = desk.source, time = model.time, bytes = #snapshot,
-    tissue = rawget(g, "tissue"), P = rawget(g, "P") }
+  return { what = what, model = model, added = course.added(my), snapshot = snapshot,
+    source = desk.source, time = model.time, bytes = #snapshot, tissue = rawget(g, "tissue"), P = rawget(g, "P") }
 end
 
 --- The state at hand for others, not kept here. `begins`: one that was taken before this line serves again.
@@ -69,7 +71,23 @@ local function go_to(point)
   at_line = nil
   local g = desk.globals
   g.model, g.tissue, g.P, desk.source = point.model, point.tissue, point.P, point.source
-  if point.model then point.model:restore(point.snapshot) end
+  if not point.model then return end
+  course.put(desk.inside(point.model), point.added)
+  point.model:restore(point.snapshot)
+end
+
+--- The same; if it fails, all is as it was. `present`: the state at hand, if it could be taken.
+local function try(point, present, failed)
+  local g = desk.globals
+  local model, was = desk.model(), { rawget(g, "model"), rawget(g, "tissue"), rawget(g, "P"), desk.source }
+  local added, other = model and course.added(desk.inside(model)), point.model and course.added(desk.inside(point.model))
+  local ok, why = pcall(go_to, point)
+  if ok then return end
+  g.model, g.tissue, g.P, desk.source = was[1], was[2], was[3], was[4]
+  if other then course.put(desk.inside(point.model), other) end
+  if model then course.put(desk.inside(model), added) end
+  if present and present.model then pcall(go_to, present) end
+  registry.fail(failed, point.what, (tostring(why):gsub("^%S-:%d+: ", "")))
 end
 
 --- Goes back by one state that differs from the present one; false if there is none.
@@ -79,7 +97,7 @@ function history.undo()
     local point = table.remove(points)
     total = total - point.bytes
     if not present or not same(point, present) then
-      go_to(point)
+      try(point, present, "undo: the state before '%s' cannot be had again (the next undo() goes further back): %s")
       if present then
         present.undone, present.base = point.what, point
         undone[#undone + 1] = present
@@ -95,7 +113,7 @@ function history.redo()
   local present = point and take(point.undone, true)
   if not present or not same(present, point.base) then return nil end
   table.remove(undone)
-  go_to(point)
+  try(point, present, "redo: '%s' cannot be done again: %s")
   push(present)
   point.what = point.undone
   return point

@@ -54,11 +54,16 @@ end
 
 op { name = "prompt.save", args = { file },
   doc = "Keeps the session in a file: the model with its script, parameters and state, and the plain variables (numbers, text, " ..
-    "cells, tables of them).",
+    "cells, tables of them). Rules and events must be those of the script.",
   example = 'load "patterning/ring" local name = os.tmpname() save(name) os.remove(name)',
   fn = function(path)
     local model, source = desk.need_model "save", desk.source
     if not source then fail "save: this model was typed here; transcript \"file\" keeps what was typed, as a script" end
+    local added = desk.added(model)
+    if added then
+      fail("save: the script of %s does not make these, which were added later: %s. A session is read by running the " ..
+        "script again: put them into the script first, and load that", source.name, added)
+    end
     core.write_atomic(path, core.pack(sections_of(model, source, model:snapshot())))
     say("%s at t = %.6g is kept in %s", source.name, model.time, path)
   end }
@@ -189,7 +194,7 @@ local most_entries = 10000  -- of a variable that is rescued
 
 local function rescue(begins)
   local model, source = desk.model(), desk.source
-  local point = model and source and history.present(begins)
+  local point = model and source and not desk.added(model) and history.present(begins)
   if not point then  -- the line that runs now is no part of what is worth keeping
     if #desk.lines < 2 or screen.private then return core.rescue() end
     return core.rescue { path = rescued .. ".lua", bytes = (as_script(rescued .. ".lua", #desk.lines - 1)),

@@ -156,7 +156,8 @@ op { name = "prompt.edit",
 op { name = "prompt.set", kind = "named", rest = { type = "number|string|boolean",
   doc = "a parameter = its new value" },
   doc = "Changes parameters of the model: all of them, or none if one is refused. They take effect at the next step; what a " ..
-    "script did with them while it was loaded (the number of cells, say) stays. P.name = value does the same for one.",
+    "script did with them while it was loaded (the number of cells, say) stays. P.name = value does the same for one. " ..
+    "A variant is chosen on loading: load { name, variant = ... }.",
   example = loaded .. "set { D = 0.5, T = 90 }",
   fn = function(o)
     local P = desk.need_model "set".params
@@ -187,8 +188,8 @@ end
 
 op { name = "prompt.undo", args = { { name = "times", type = "integer", min = 1, max = 1000, default = 1,
   doc = "so many changes back" } },
-  doc = string.format("Goes back to the state before the last run, step or change of the model: tissue, time, parameters, and " ..
-    "which model it was. Up to %d states are kept, in %d MB together; the oldest go first.",
+  doc = string.format("Goes back to the state before the last run, step or change of the model: tissue, time, parameters, " ..
+    "rules and events, and which model it was. Up to %d states are kept, in %d MB together; the oldest go first.",
     history.count, history.bytes / 2 ^ 20),
   example = loaded .. "set { D = 2 } undo()",
   fn = function(times)
