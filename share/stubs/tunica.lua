@@ -601,7 +601,7 @@ function model:advance(options) end
 ---@return string # text
 function model:snapshot() end
 
----Goes back to a snapshot of the same script. The method stays the one in use (model:solve_with).
+---Goes back to a snapshot of the same script. Rules, events and reports that the model was given since go. The method stays the one in use (model:solve_with).
 ---@param snapshot string what model:snapshot() gave (text; needed)
 function model:restore(snapshot) end
 
