@@ -36,11 +36,6 @@ std::string brief(const std::string& text) {
   return end && *end == 0 && !text.empty() ? fmt::format("{:.5g}", value) : text;
 }
 
-std::string as_text(const nlohmann::json& value) {
-  if (value.is_string()) return value.get<std::string>();
-  return value.is_number() ? sweep::shortest(value.get<double>()) : value.dump();
-}
-
 void print_counts(const SweepView& view) {
   std::map<std::string, size_t> by_status;
   size_t fresh = 0;
@@ -187,8 +182,8 @@ using Fields = std::map<std::string, std::string>;
 Fields fields_of(const SweepView& view, const sweep::SampleRow& sample, const sweep::RunRow& run) {
   Fields fields;
   for (const auto& [name, value] : flatten(run.result))
-    fields[name.starts_with("report.") ? name.substr(7) : name] = as_text(value);
-  for (const auto& [name, value] : view.values(sample)) fields[name] = value;
+    if (!name.starts_with("parameters.")) fields[name.starts_with("report.") ? name.substr(7) : name] = as_text(value);
+  for (const auto& [name, value] : view.parameters_of(sample, run)) fields[name] = value;
   fields["sample"] = std::to_string(run.sample);
   fields["seed"] = std::to_string(run.seed);
   fields["fresh"] = std::to_string(int{run.fresh});

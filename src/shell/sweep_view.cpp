@@ -44,6 +44,11 @@ std::vector<std::pair<std::string, json>> flatten(const std::string& result) {
   return out;
 }
 
+std::string as_text(const json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  return value.is_number() ? sweep::shortest(value.get<double>()) : value.dump();
+}
+
 SweepView::SweepView(const std::string& path) {
   const sweep::Table table(path, sweep::Table::Mode::read);
   const auto note = [&](const char* name) {
@@ -75,6 +80,13 @@ Values SweepView::values(const sweep::SampleRow& sample) const {
   Values list;
   for (size_t i = 0; i < parameters.size() && i < sample.parameters.size(); ++i)
     list[parameters[i].name] = sample.parameters[i];
+  return list;
+}
+
+Values SweepView::parameters_of(const sweep::SampleRow& sample, const sweep::RunRow& run) const {
+  Values list = values(sample);
+  for (const auto& [name, value] : flatten(run.result))
+    if (name.starts_with("parameters.")) list[name.substr(11)] = as_text(value);
   return list;
 }
 

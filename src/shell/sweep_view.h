@@ -37,6 +37,8 @@ class SweepView {
   bool has_score() const { return !settings.at("score").get<std::string>().empty(); }
   bool minimizes() const { return settings.at("minimize"); }
   Values values(const sweep::SampleRow& sample) const;
+  /// All parameters as the run had them; if it failed, those of its sample.
+  Values parameters_of(const sweep::SampleRow& sample, const sweep::RunRow& run) const;
   /// Mean score of a sample over seeds of the search, or over fresh ones; nothing unless all of these are there.
   std::optional<Mean> score(int64_t sample, bool fresh) const;
   /// Samples by that score, the best first.
@@ -53,5 +55,8 @@ class SweepView {
 
 /// The numbers and texts of a run by dotted name: "report.peaks", "time".
 std::vector<std::pair<std::string, nlohmann::json>> flatten(const std::string& result);
+
+/// A text without quotes, a number in its shortest form.
+std::string as_text(const nlohmann::json& value);
 
 }  // namespace tunica::shell

@@ -101,6 +101,17 @@ says failures.txt "limit of 100 MB"
 code 0 sweep way=good,error,crash,hang,memory a=1,2 --grid --time-limit 3 --memory 100 --out bad.db
 [ ! -s err.txt ] || wrong "runs that failed are made again"
 
+# --- The score and the table see the parameters that the run had: a variant changes others than the one that is swept.
+cat >variant.lua <<'LUA'
+local P = require("tunica").params { T = 2, variant = { "a", "v" }, variants = { a = {}, b = { T = 3 } } }
+return { twice = 2 * P.T }
+LUA
+code 0 "$tunica" sweep variant.lua variant=a,b --grid --score T --out variant.db
+table variant.db >variant.csv
+printf '%s\n' variant,score,T,twice a,2,2,4 b,3,3,6 >expected.txt
+cut -d, -f 5- variant.csv >columns.txt
+[ "$(sort -u columns.txt)" = "$(sort -u expected.txt)" ] || { wrong "parameters of variants"; cat variant.csv; }
+
 # --- Looking at it.
 code 0 env LC_ALL=C "$tunica" sweep show one.db --plot a mean
 says out.txt "*"

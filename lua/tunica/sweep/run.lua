@@ -111,11 +111,23 @@ local function run_model(model, until_time)
   return result
 end
 
+--- The parameters as the script has left them: a variant, or the script itself, may have changed others than the sweep.
+local function parameters_now()
+  local list = {}
+  local P = params.current()
+  for name, value in pairs(P and params.values(P) or {}) do list[name] = value end
+  return next(list) and list or nil
+end
+
 --- The result of one run as JSON; nil and a message after a numerical failure.
 function run.run(result, until_time)
-  if kind_of(result) == "values" then return core.encode { report = outputs.plain(result) } end
+  local parameters = parameters_now()
+  if kind_of(result) == "values" then return core.encode { report = outputs.plain(result), parameters = parameters } end
   local ok, values = pcall(run_model, result, until_time)
-  if ok then return core.encode(values) end
+  if ok then
+    values.parameters = parameters
+    return core.encode(values)
+  end
   if not optional(result, "failure") then error(values, 0) end
   return nil, tostring(values)
 end

@@ -64,13 +64,14 @@ local function typed(text, like)
   return text
 end
 
---- The score of a run: result as JSON, the sample's parameters as name -> text. Returns the number, or nil and why there is
--- none.
+--- The score of a run: result as JSON, the sample's parameters as name -> text (for files whose runs do not tell theirs).
+-- Returns the number, or nil and why there is none.
 function score.of(self, json, changed)
   local result = revive(core.decode(json))
   local parameters = {}
   for name, value in pairs(self.parameters) do parameters[name] = value end
   for name, text in pairs(changed) do parameters[name] = typed(text, self.parameters[name]) end
+  for name, value in pairs(result.parameters or {}) do parameters[name] = value end
   local env = { report = result.report, series = result.series or {}, parameter = parameters, tonumber = tonumber, tostring = tostring,
     time = result.time, steps = result.steps, cells = result.cells, primordia = result.primordia }
   for name, value in pairs(parameters) do env[name] = value end
