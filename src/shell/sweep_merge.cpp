@@ -44,6 +44,36 @@ size_t take_over(sweep::Table& whole, const sweep::Table& part) {
   return taken;
 }
 
+/// Takes over one part: what it is of, if the whole does not know yet, and its rows. Returns how many runs.
+size_t merge_part(sweep::Table& whole, const std::string& path) {
+  const sweep::Table part(path, sweep::Table::Mode::read);
+  const auto here = whole.note("identity"), there = part.note("identity");
+  if (!there) throw UsageError{fmt::format("'{}' was stopped before its first run", part.path())};
+  if (here)
+    if (const std::string what = difference(*here, *there); !what.empty())
+      throw UsageError{fmt::format("'{}' is of another sweep than '{}': {}", part.path(), whole.path(), what)};
+  for (const char* name : {"identity", "model", "script", "build", "about", "settings"})
+    if (const auto text = part.note(name); text && !here) whole.set_note(name, *text);
+  auto settings = nlohmann::json::parse(*whole.note("settings"));
+  settings["shard"] = settings["shards"] = 1;
+  whole.set_note("settings", settings.dump());
+  return take_over(whole, part);
+}
+
+/// All parts or none: what was there before a part that does not fit stays as it was.
+std::vector<size_t> merge_all(const std::string& out, const std::vector<std::string>& parts) {
+  sweep::Table whole(out, sweep::Table::Mode::write);
+  try {
+    std::vector<size_t> taken;
+    for (const auto& part : parts) taken.push_back(merge_part(whole, part));
+    whole.commit();
+    return taken;
+  } catch (...) {
+    whole.take_back();
+    throw;
+  }
+}
+
 }  // namespace
 
 int merge_sweeps(const SweepOptions& options) try {
@@ -54,22 +84,15 @@ int merge_sweeps(const SweepOptions& options) try {
   for (size_t i = 1; i < options.files.size(); ++i)
     if (!std::filesystem::exists(options.files[i]))
       throw UsageError{fmt::format("there is no file '{}'", options.files[i])};
-  sweep::Table whole(out, sweep::Table::Mode::write);
-  for (size_t i = 1; i < options.files.size(); ++i) {
-    const sweep::Table part(options.files[i], sweep::Table::Mode::read);
-    const auto here = whole.note("identity"), there = part.note("identity");
-    if (!there) throw UsageError{fmt::format("'{}' was stopped before its first run", part.path())};
-    if (here)
-      if (const std::string what = difference(*here, *there); !what.empty())
-        throw UsageError{fmt::format("'{}' is of another sweep than '{}': {}", part.path(), out, what)};
-    for (const char* name : {"identity", "model", "script", "build", "about", "settings"})
-      if (const auto text = part.note(name); text && !here) whole.set_note(name, *text);
-    auto settings = nlohmann::json::parse(*whole.note("settings"));
-    settings["shard"] = settings["shards"] = 1;
-    whole.set_note("settings", settings.dump());
-    const size_t taken = take_over(whole, part);
-    whole.commit();
-    fmt::print("{}: {} runs\n", part.path(), taken);
+  const std::vector<std::string> parts(options.files.begin() + 1, options.files.end());
+  std::error_code error;
+  const bool is_new = !std::filesystem::exists(out, error);
+  try {
+    const auto taken = merge_all(out, parts);
+    for (size_t i = 0; i < parts.size(); ++i) fmt::print("{}: {} runs\n", parts[i], taken[i]);
+  } catch (...) {
+    if (is_new) std::filesystem::remove(out, error);
+    throw;
   }
   return ok;
 } catch (const Error& error) {

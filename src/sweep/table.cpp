@@ -127,6 +127,11 @@ void Table::commit() {
   open_ = false;
 }
 
+void Table::take_back() {
+  if (open_) sqlite3_exec(db_, "ROLLBACK", nullptr, nullptr, nullptr);
+  open_ = false;
+}
+
 double Table::pending() const { return open_ ? now() - begun_ : 0; }
 
 std::optional<std::string> Table::note(const std::string& name) const {

@@ -49,6 +49,7 @@ class Table {
   void add_run(const RunRow& row);
   void remove_failures();
   void commit();
+  void take_back();  ///< all writes since the last commit
   /// Seconds since the first write that is not yet lasting; 0 if there is none.
   double pending() const;
 

@@ -200,6 +200,26 @@ done
 code 0 "$tunica" sweep merge merged.db part1.db part2.db part3.db
 table merged.db >merged.csv
 same merged.csv whole.csv
+# A part that does not fit changes nothing, neither itself nor those before it.
+cp part2.db other2.db
+"$tunica" - other2.db <<'LUA' || wrong "cannot forge a part"
+local name = arg[1]
+local file = assert(io.open(name, "rb"))
+local bytes, count = file:read("*a"):gsub('"steps":20', '"steps":21')
+file:close()
+assert(count > 0)
+file = assert(io.open(name, "wb"))
+file:write(bytes)
+file:close()
+LUA
+cp part1.db kept.db
+code 0 "$tunica" sweep merge kept.db part2.db
+cp kept.db before.db
+code 2 "$tunica" sweep merge kept.db part3.db other2.db
+says err.txt "another result for sample"
+same kept.db before.db
+code 2 "$tunica" sweep merge fresh.db part2.db other2.db
+[ ! -e fresh.db ] || wrong "a merge that was refused left a file"
 
 # --- A full disk, as a limit of the file's size.
 (
