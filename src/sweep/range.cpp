@@ -77,6 +77,11 @@ Range read_interval(const Parameter& p, const std::string& text) {
   read_options(range, parts);
   if (range.log && range.low <= 0)
     fail("parameter '{}': a logarithmic range begins above 0, got {}", p.name, shortest(range.low));
+  if (!std::isfinite(range.high - range.low))
+    fail("parameter '{}': the range {} is wider than a number can be (1.8e308)", p.name, parts[0]);
+  if (range.log && !std::isfinite(range.high / range.low))
+    fail("parameter '{}': the logarithmic range {} spans more than 308 decades; begin it at {} or above", p.name,
+         parts[0], shortest(range.high / 1e308));
   if (range.whole && (range.low != std::floor(range.low) || range.high != std::floor(range.high)))
     fail("parameter '{}': a range of whole numbers has whole ends, got {}", p.name, parts[0]);
   return range;

@@ -57,6 +57,9 @@ TEST(Range, RefusesWhatCannotBeMeant) {
   fails_with(number, "3..5:lgo", "got 'lgo'");
   fails_with(number, "0..5:log", "begins above 0");
   fails_with(number, "0.5..5:whole", "whole ends");
+  const Parameter free{.name = "T", .type = Parameter::Type::number, .value = "1"};
+  fails_with(free, "-1e308..1e308", "wider than a number can be");
+  fails_with(free, "1e-300..1e300:log", "more than 308 decades");
   fails_with(flag, "yes", "expected true or false");
 }
 
