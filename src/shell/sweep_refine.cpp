@@ -52,24 +52,29 @@ sweep::Sample start_of(const SweepWork& work, const SweepOptions& options, const
   return start;
 }
 
-/// A search goes on only as it began.
-void settle_search(sweep::Table& table, const SweepOptions& options, const SweepPlan& plan,
-                   const sweep::Sample& start) {
-  const json here{{"method", options.method},
+/// A search goes on only as it began. Returns its start, which stays what it was even if samples that failed then have
+/// better scores now.
+sweep::Sample settle_search(sweep::Table& table, const SweepWork& work, const SweepOptions& options,
+                            const SweepPlan& plan) {
+  json here{{"method", options.method},
                   {"step", options.step},
                   {"population", options.population},
                   {"score", options.score},
                   {"direction", options.minimize ? "minimize" : "maximize"},
                   {"seeds", options.seeds},
-                  {"samples before it", plan.samples.size()},
-                  {"start", start}};
+                  {"samples before it", plan.samples.size()}};
   const auto text = table.note("search");
-  if (!text) return table.set_note("search", here.dump());
+  if (!text) {
+    here["start"] = start_of(work, options, plan);
+    table.set_note("search", here.dump());
+    return here["start"];
+  }
   const json there = json::parse(*text);
   for (const auto& [name, value] : here.items())
     if (there.at(name) != value)
       throw UsageError{fmt::format("'{}' holds another search: {} is {} now, and was {} there; choose another --out",
                                    table.path(), name, value.dump(), there.at(name).dump())};
+  return there.at("start");
 }
 
 /// One generation. Returns its values, the least the best; nothing when stopped.
@@ -95,8 +100,7 @@ std::optional<std::vector<double>> evaluate(SweepWork& work, const SweepOptions&
 
 bool refine(SweepWork& work, const SweepOptions& options, const SweepPlan& plan, sweep::Table& table) {
   const auto dimensions = dimensions_of(plan);
-  const sweep::Sample start = start_of(work, options, plan);
-  settle_search(table, options, plan, start);
+  const sweep::Sample start = settle_search(table, work, options, plan);
   sweep::Search::Settings settings{
       .step = options.step, .population = options.population, .seed = options.sampling_seed};
   for (const size_t i : dimensions)
