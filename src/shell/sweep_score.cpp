@@ -26,6 +26,13 @@ void push_value(lua_State* L, const sweep::Parameter& p) {
   p.type == Type::number ? lua_pushnumber(L, number) : lua_pushboolean(L, p.value == "true");
 }
 
+constexpr int most_millions = 50;  // of Lua's instructions; some tenths of a second
+
+void refuse_to_go_on(lua_State* L, lua_Debug*) {
+  lua_pushfstring(L, "the score runs for more than %d million instructions; does it end?", most_millions);
+  lua_error(L);
+}
+
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 }  // namespace
@@ -61,7 +68,10 @@ Score Scorer::operator()(const std::string& result, const Values& values) {
     lua_pushlstring(L, value.data(), value.size());
     lua_setfield(L, -2, name.c_str());
   }
-  if (const auto error = lua::call_protected(L, 3, 2)) return {std::nullopt, first_line(*error)};
+  lua_sethook(L, refuse_to_go_on, LUA_MASKCOUNT, most_millions * 1'000'000);
+  const auto error = lua::call_protected(L, 3, 2);
+  if (lua_gethook(L) == refuse_to_go_on) lua_sethook(L, nullptr, 0, 0);  // else a signal has set its own
+  if (error) return {std::nullopt, first_line(*error)};
   Score score;
   if (lua_type(L, -2) == LUA_TNUMBER)
     score.value = lua_tonumber(L, -2);
