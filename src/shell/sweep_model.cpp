@@ -29,7 +29,9 @@ Script read_script(const std::string& given) {
   }
 }
 
-bool write_all(int descriptor, const char* bytes, size_t size) {
+bool write_all(int descriptor, const std::string& text) {
+  const char* bytes = text.data();
+  size_t size = text.size();
   while (size > 0) {
     const ssize_t count = write(descriptor, bytes, size);
     if (count < 0 && errno == EINTR) continue;
@@ -91,23 +93,35 @@ bool SweepModel::load(const Values& values, uint64_t seed) {
   return session_.run(script_, true);
 }
 
-int SweepModel::write_result(const char* function, std::optional<double> until, int descriptor) {
+/// The error that ended the script, in one line, for the parent.
+int SweepModel::answer_error(int descriptor) {
+  const std::string& error = session_.error();
+  const std::string line = error.substr(0, error.find('\n'));
+  const bool memory = line == "not enough memory" || line.ends_with(": out of memory");
+  write_all(descriptor, answer_of(memory ? "memory" : "failed", line, ""));
+  return session_.exit_code();
+}
+
+int SweepModel::answer(const char* function, std::optional<double> until, int descriptor) {
   lua_State* L = session_.lua();
-  if (!require(session_, "tunica.sweep.run")) return session_.exit_code();
+  if (!require(session_, "tunica.sweep.run")) return answer_error(descriptor);
   lua_getfield(L, -1, function);
   lua_remove(L, -2);
   lua_insert(L, -2);  // below what the script returned
   until ? lua_pushnumber(L, *until) : lua_pushnil(L);
-  if (!session_.call(2, 2)) return session_.exit_code();
+  if (!session_.call(2, 2)) return answer_error(descriptor);
   size_t size = 0;
-  if (const char* text = lua_tolstring(L, -2, &size)) return write_all(descriptor, text, size) ? ok : file_error;
-  say_error(lua_tostring(L, -1));
+  if (const char* text = lua_tolstring(L, -2, &size))
+    return write_all(descriptor, answer_of("done", "", std::string(text, size))) ? ok : file_error;
+  const char* why = lua_tostring(L, -1);
+  say_error(why);
+  write_all(descriptor, answer_of("numerical", std::string(why).substr(0, std::string(why).find('\n')), ""));
   return numerical_failure;
 }
 
 Description SweepModel::describe(const Values& values, std::optional<double> until, double seconds) {
   Pool pool(1, {.seconds = seconds}, [&](size_t, int descriptor) {
-    return load(values, 1) ? write_result("describe", until, descriptor) : session_.exit_code();
+    return load(values, 1) ? answer("describe", until, descriptor) : answer_error(descriptor);
   });
   pool.start(0);
   for (;;) {
@@ -120,7 +134,7 @@ Description SweepModel::describe(const Values& values, std::optional<double> unt
 }
 
 int SweepModel::run(const Values& values, uint64_t seed, std::optional<double> until, int descriptor) {
-  return load(values, seed) ? write_result("run", until, descriptor) : session_.exit_code();
+  return load(values, seed) ? answer("run", until, descriptor) : answer_error(descriptor);
 }
 
 }  // namespace tunica::shell

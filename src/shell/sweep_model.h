@@ -38,7 +38,8 @@ class SweepModel {
 
  private:
   bool load(const Values& values, uint64_t seed);
-  int write_result(const char* function, std::optional<double> until, int descriptor);
+  int answer(const char* function, std::optional<double> until, int descriptor);
+  int answer_error(int descriptor);
 
   std::string given_;
   Script script_;

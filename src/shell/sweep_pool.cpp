@@ -14,6 +14,7 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -57,12 +58,6 @@ void move(int from, int to) {
   dup2(from, to);
 }
 
-bool speaks_of_memory(const std::string& text) {
-  for (const char* words : {"not enough memory", "out of memory", "bad_alloc", "std::length_error"})
-    if (text.find(words) != std::string::npos) return true;
-  return false;
-}
-
 /// The last lines, no more than `most_log` bytes.
 std::string last_lines(std::string text) {
   if (text.size() > most_log) {
@@ -73,14 +68,28 @@ std::string last_lines(std::string text) {
   return text;
 }
 
-/// "tunica: error: ..." as the first line that says so, else the last line.
-std::string message_in(const std::string& log) {
-  const size_t at = log.find("error: ");
-  const size_t from = at != std::string::npos ? at + 7 : log.rfind('\n') + 1;
-  return log.substr(from, log.find('\n', from) - from);
+bool write_answer(int descriptor, const std::string& text) {
+  return write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+}
+
+/// Takes a child's answer apart. False if it is none.
+bool read_answer(std::string& answer, Outcome& outcome) {
+  const size_t end = answer.find('\n');
+  if (end == std::string::npos) return false;
+  const auto head = nlohmann::json::parse(answer.substr(0, end), nullptr, false);
+  if (!head.is_object() || !head.contains("status") || !head.contains("message")) return false;
+  outcome.status = head.at("status");
+  outcome.message = head.at("message");
+  outcome.result = answer.substr(end + 1);
+  return true;
 }
 
 }  // namespace
+
+std::string answer_of(const std::string& status, const std::string& message, const std::string& result) {
+  const nlohmann::json head{{"status", status}, {"message", message}};
+  return head.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n" + result;
+}
 
 Pool::Pool(int processes, RunLimits limits, Body body)
     : processes_(std::max(processes, 1)), limits_(limits), body_(std::move(body)) {}
@@ -106,10 +115,10 @@ void Pool::run_child(size_t job, int result, int log) {
   try {
     code = body_(job, result_descriptor);
   } catch (const std::bad_alloc&) {
-    const char text[] = "tunica: error: out of memory\n";
-    if (write(STDERR_FILENO, text, sizeof text - 1) < 0) code = script_error;
+    const char answer[] = "{\"status\":\"memory\",\"message\":\"out of memory\"}\n";
+    if (write(result_descriptor, answer, sizeof answer - 1) < 0) code = script_error;
   } catch (const std::exception& error) {
-    fprintf(stderr, "tunica: error: %s\n", error.what());
+    if (!write_answer(result_descriptor, answer_of("failed", error.what(), ""))) code = file_error;
   }
   std::fflush(nullptr);
   _exit(code);  // nothing of the parent's is to be closed or written
@@ -170,27 +179,23 @@ Outcome Pool::end(Child& child) {
   outcome.seconds = std::chrono::duration<double>(Clock::now() - child.begun).count();
   outcome.cpu_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
   outcome.megabytes = static_cast<double>(usage.ru_maxrss) / 1024;
-  const bool killed = WIFSIGNALED(status);
-  if (child.out_of_time && !child.out_of_memory) {
+  if (child.out_of_memory) {
+    outcome.status = "memory";
+    outcome.message = fmt::format("more than the limit of {:.0f} MB", limits_.megabytes);
+  } else if (child.out_of_time) {
     outcome.status = "time";
     outcome.message = fmt::format("not done after {:g} s", limits_.seconds);
+  } else if (WIFSIGNALED(status)) {
+    const int number = WTERMSIG(status);
+    outcome.status = number == SIGKILL ? "killed" : "crashed";
+    outcome.message = number == SIGKILL ? "ended from outside by SIGKILL; so does a machine without memory"
+                                        : fmt::format("ended by signal {} ({})", number, strsignal(number));
   } else if (child.result_text.size() >= most_result) {
     outcome.status = "failed";
     outcome.message = fmt::format("the report is larger than {} MB", most_result >> 20);
-  } else if (!killed && WEXITSTATUS(status) == ok && !child.result_text.empty()) {
-    outcome.status = "done";
-    outcome.result = std::move(child.result_text);
-  } else if ((killed && WTERMSIG(status) == SIGKILL) || speaks_of_memory(outcome.log)) {
-    outcome.status = "memory";
-    outcome.message = child.out_of_memory ? fmt::format("more than the limit of {:.0f} MB", limits_.megabytes)
-                                          : std::string("the machine had no more memory");
-  } else if (killed) {
-    outcome.status = "crashed";
-    outcome.message = fmt::format("ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
-  } else {
-    outcome.status = WEXITSTATUS(status) == numerical_failure ? "numerical" : "failed";
-    outcome.message = message_in(outcome.log);
-    if (outcome.message.empty()) outcome.message = fmt::format("ended with exit code {}", WEXITSTATUS(status));
+  } else if (!read_answer(child.result_text, outcome) || (outcome.status == "done" && WEXITSTATUS(status) != ok)) {
+    outcome.status = "failed";
+    outcome.message = fmt::format("ended with exit code {} and without an answer", WEXITSTATUS(status));
   }
   return outcome;
 }

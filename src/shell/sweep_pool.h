@@ -21,19 +21,23 @@ struct RunLimits {
 /// How a child ended.
 struct Outcome {
   size_t job = 0;
-  std::string status;   ///< done, failed, numerical, crashed, time, memory
+  std::string status;   ///< done, failed, numerical, crashed, killed, time, memory
   std::string result;   ///< what it wrote, if it came to its end
   std::string message;  ///< why not
   std::string log;      ///< last lines of its standard error and output
   double seconds = 0, cpu_seconds = 0, megabytes = 0;
 };
 
+/// What a child writes to its parent, which believes nothing that the script may have printed.
+std::string answer_of(const std::string& status, const std::string& message, const std::string& result);
+
 /// Local processes, a forked child for each run: it begins with what the parent has loaded, and whatever becomes of it
 /// (a crash, endless loops, eaten memory) is an outcome. The parent has a single thread and runs no model. Children die
 /// with their parent.
 class Pool {
  public:
-  /// `body(job, fd)` runs in the child and writes its result to the descriptor; its return value is the exit code.
+  /// `body(job, fd)` runs in the child and writes to the descriptor what became of it (answer_of); its return value is
+  /// the exit code.
   using Body = std::function<int(size_t job, int descriptor)>;
   Pool(int processes, RunLimits limits, Body body);
   ~Pool();

@@ -17,7 +17,7 @@ struct RunRow {
   int64_t sample = 0;
   uint64_t seed = 0;
   bool fresh = false;   ///< for a seed that the search does not see
-  std::string status;   ///< done, failed, numerical, crashed, time, memory
+  std::string status;   ///< done, failed, numerical, crashed, killed, time, memory
   std::string result;   ///< JSON: time, steps, hash, report, series; "" unless done
   std::string message;  ///< why it failed
   std::string log;      ///< last lines of standard error
