@@ -89,6 +89,16 @@ Values plainly_fixed(const std::vector<std::string>& arguments) {
   return values;
 }
 
+/// Winners are run on seeds that no search of the file saw, not only the one that is asked for now.
+void check_fresh_seeds(const sweep::Table& table, const SweepOptions& options) {
+  if (options.score.empty()) return;
+  for (const auto& run : table.runs())
+    if (!run.fresh && std::find(options.fresh.begin(), options.fresh.end(), run.seed) != options.fresh.end())
+      throw UsageError{fmt::format("--fresh-seeds: {} is a seed of a search in '{}'; fresh seeds are those the search "
+                                   "never saw",
+                                   run.seed, table.path())};
+}
+
 }  // namespace
 
 Values SweepPlan::values(const sweep::Sample& sample) const {
@@ -153,6 +163,7 @@ void settle_plan(sweep::Table& table, const SweepModel& model, const SweepOption
     table.set_note("build", build);
     table.set_note("about", plan.about.json);
   }
+  check_fresh_seeds(table, options);
   if (table.note("build") != build && !options.quiet)
     say_warning(
         fmt::format("the program or its library has changed since '{}' was begun: results may differ", table.path()));
