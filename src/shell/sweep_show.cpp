@@ -89,7 +89,12 @@ void print_best(const SweepView& view, size_t count) {
   if (!fresh) list = view.ranking(false);
   fmt::print("\nscore: {} ({})\n", view.settings.at("score").get<std::string>(),
              view.minimizes() ? "least is best" : "greatest is best");
-  if (list.empty()) return fmt::print("no sample has a score yet\n");
+  if (list.empty()) {
+    std::string why;
+    for (const auto& [key, score] : view.scores)
+      if (!score.value) why = ": " + score.why;
+    return fmt::print("no sample has a score yet{}\n", why);
+  }
   if (!fresh)
     fmt::print(
         "These are scores on the seeds of the search; the best of many are flattered. Winners are not run yet.\n");
@@ -178,12 +183,44 @@ void print_sample(const SweepView& view, int64_t number) {
 
 using Fields = std::map<std::string, std::string>;
 
-/// All values of a run by name; reports by their own names.
-Fields fields_of(const SweepView& view, const sweep::SampleRow& sample, const sweep::RunRow& run) {
+constexpr std::string_view of_report = "report.", of_parameter = "parameter.", of_parameters = "parameters.";
+
+/// Names that several of reports, parameters and a run's own values have; these are told apart by what they are of.
+class Names {
+ public:
+  explicit Names(const SweepView& view) {
+    for (const char* name : {"sample", "seed", "fresh", "status", "score"}) own_.insert(name);
+    for (const auto& p : view.about.parameters) parameters_.insert(p.name);
+    for (const auto& run : view.runs)
+      for (const auto& [name, value] : flatten(run.result)) {
+        if (name.starts_with(of_report))
+          reports_.insert(name.substr(of_report.size()));
+        else if (!name.starts_with(of_parameters))
+          own_.insert(name);
+      }
+  }
+  std::string report(const std::string& name) const {
+    return taken(name) || parameters_.contains(name) ? std::string(of_report) + name : name;
+  }
+  std::string parameter(const std::string& name) const {
+    return taken(name) || reports_.contains(name) ? std::string(of_parameter) + name : name;
+  }
+
+ private:
+  bool taken(const std::string& name) const {
+    return own_.contains(name) || name.starts_with(of_report) || name.starts_with(of_parameter);
+  }
+  std::set<std::string> own_, reports_, parameters_;
+};
+
+/// All values of a run by name; reports and parameters by their own names where these are no others'.
+Fields fields_of(const SweepView& view, const Names& names, const sweep::SampleRow& sample, const sweep::RunRow& run) {
   Fields fields;
-  for (const auto& [name, value] : flatten(run.result))
-    if (!name.starts_with("parameters.")) fields[name.starts_with("report.") ? name.substr(7) : name] = as_text(value);
-  for (const auto& [name, value] : view.parameters_of(sample, run)) fields[name] = value;
+  for (const auto& [name, value] : flatten(run.result)) {
+    if (name.starts_with(of_parameters)) continue;
+    fields[name.starts_with(of_report) ? names.report(name.substr(of_report.size())) : name] = as_text(value);
+  }
+  for (const auto& [name, value] : view.parameters_of(sample, run)) fields[names.parameter(name)] = value;
   fields["sample"] = std::to_string(run.sample);
   fields["seed"] = std::to_string(run.seed);
   fields["fresh"] = std::to_string(int{run.fresh});
@@ -194,16 +231,18 @@ Fields fields_of(const SweepView& view, const sweep::SampleRow& sample, const sw
 }
 
 std::vector<Fields> all_fields(const SweepView& view) {
+  const Names names(view);
   std::map<int64_t, const sweep::SampleRow*> samples;
   for (const auto& sample : view.samples) samples[sample.sample] = &sample;
   std::vector<Fields> rows;
-  for (const auto& run : view.runs) rows.push_back(fields_of(view, *samples.at(run.sample), run));
+  for (const auto& run : view.runs) rows.push_back(fields_of(view, names, *samples.at(run.sample), run));
   return rows;
 }
 
 Line names_of(const SweepView& view, const std::vector<Fields>& rows) {
+  const Names own(view);
   Line names{"sample", "seed", "fresh", "status"};
-  for (const auto& p : view.parameters) names.push_back(p.name);
+  for (const auto& p : view.parameters) names.push_back(own.parameter(p.name));
   if (view.has_score()) names.push_back("score");
   std::set<std::string> more;
   for (const auto& row : rows)

@@ -112,6 +112,49 @@ printf '%s\n' variant,score,T,twice a,2,2,4 b,3,3,6 >expected.txt
 cut -d, -f 5- variant.csv >columns.txt
 [ "$(sort -u columns.txt)" = "$(sort -u expected.txt)" ] || { wrong "parameters of variants"; cat variant.csv; }
 
+# --- What a run printed does not name its failure.
+cat >said.lua <<'LUA'
+local P = require("tunica").params { way = "a", D = 1 }
+if P.way == "printed" then print "out of memory? no" error "plain failure" end
+if P.way == "colon" then error("relative error: 5 percent", 0) end
+if P.way == "killed" then os.execute "kill -KILL $PPID" end
+if P.way == "left" then os.exit(0) end
+return { status = P.D, D = 2 * P.D, x = 1 }
+LUA
+code 0 "$tunica" sweep said.lua way=printed,colon,killed,left,a --grid --out said.db -q
+"$tunica" sweep show said.db --failures >failures.txt
+says failures.txt "sample 1 seed 1: failed: said.lua:2: plain failure"
+says failures.txt "sample 2 seed 1: failed: relative error: 5 percent"
+says failures.txt "sample 3 seed 1: killed: ended from outside"
+says failures.txt "sample 4 seed 1: failed: ended with exit code 0"
+# Names that meet in the table are told apart.
+table said.db | sed -n '1p;6p' >said.csv
+printf '%s\n' sample,seed,fresh,status,way,parameter.D,report.D,report.status,x 5,1,0,done,a,1,2,1,1 >expected.txt
+same said.csv expected.txt
+
+# --- A score that runs for ever has none.
+code 0 timeout 60 "$tunica" sweep said.lua D=1,2 --grid --score "(function() while true do end end)()" --out endless.db -q
+says err.txt "does it end?"
+code 0 timeout 60 "$tunica" sweep show endless.db
+says out.txt "does it end?"
+
+# --- The start of a search stays what it was.
+cat >start.lua <<'LUA'
+local P = require("tunica").params { a = 1 }
+if P.a > 5 and not io.open "mended" then error "not yet" end
+return { y = P.a }
+LUA
+code 0 "$tunica" sweep start.lua a=0..10 --random 8 --refine 6 --score y --out start.db -q
+touch mended
+code 0 "$tunica" sweep start.lua a=0..10 --random 8 --refine 6 --score y --out start.db -q --retry
+"$tunica" sweep show start.db --failures >failures.txt
+says failures.txt "no run failed"
+
+# --- Fresh seeds are those that no search of the file has seen.
+code 0 "$tunica" sweep said.lua D=1,2 --grid --seeds 1..4 --out seen.db -q
+code 2 "$tunica" sweep said.lua D=1,2 --grid --seeds 1 --fresh-seeds 3..5 --score x --out seen.db -q
+says err.txt "3 is a seed of a search in 'seen.db'"
+
 # --- Looking at it.
 code 0 env LC_ALL=C "$tunica" sweep show one.db --plot a mean
 says out.txt "*"
