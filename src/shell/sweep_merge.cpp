@@ -57,6 +57,7 @@ size_t merge_part(sweep::Table& whole, const std::string& path) {
   auto settings = nlohmann::json::parse(*whole.note("settings"));
   settings["shard"] = settings["shards"] = 1;
   whole.set_note("settings", settings.dump());
+  if (const auto files = part.note("files")) settle_files(whole, *files);
   return take_over(whole, part);
 }
 

@@ -93,12 +93,25 @@ bool SweepModel::load(const Values& values, uint64_t seed) {
   return session_.run(script_, true);
 }
 
+/// The files that the script has read, as JSON; "" if they cannot be told.
+std::string SweepModel::files() {
+  lua_State* L = session_.lua();
+  lua_getglobal(L, "require");
+  lua_pushstring(L, "tunica.sweep.run");
+  if (lua::call_protected(L, 1, 1)) return "";
+  lua_getfield(L, -1, "files");
+  if (lua::call_protected(L, 0, 1)) return "";
+  const std::string text = lua_tostring(L, -1);
+  lua_pop(L, 2);
+  return text;
+}
+
 /// The error that ended the script, in one line, for the parent.
 int SweepModel::answer_error(int descriptor) {
   const std::string& error = session_.error();
   const std::string line = error.substr(0, error.find('\n'));
   const bool memory = line == "not enough memory" || line.ends_with(": out of memory");
-  write_all(descriptor, answer_of(memory ? "memory" : "failed", line, ""));
+  write_all(descriptor, answer_of(memory ? "memory" : "failed", line, "", memory ? "" : files()));
   return session_.exit_code();
 }
 
@@ -112,10 +125,11 @@ int SweepModel::answer(const char* function, std::optional<double> until, int de
   if (!session_.call(2, 2)) return answer_error(descriptor);
   size_t size = 0;
   if (const char* text = lua_tolstring(L, -2, &size))
-    return write_all(descriptor, answer_of("done", "", std::string(text, size))) ? ok : file_error;
+    return write_all(descriptor, answer_of("done", "", std::string(text, size), files())) ? ok : file_error;
   const char* why = lua_tostring(L, -1);
   say_error(why);
-  write_all(descriptor, answer_of("numerical", std::string(why).substr(0, std::string(why).find('\n')), ""));
+  const std::string message(why);
+  write_all(descriptor, answer_of("numerical", message.substr(0, message.find('\n')), "", files()));
   return numerical_failure;
 }
 

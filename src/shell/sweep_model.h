@@ -40,6 +40,7 @@ class SweepModel {
   bool load(const Values& values, uint64_t seed);
   int answer(const char* function, std::optional<double> until, int descriptor);
   int answer_error(int descriptor);
+  std::string files();
 
   std::string given_;
   Script script_;

@@ -89,14 +89,28 @@ Values plainly_fixed(const std::vector<std::string>& arguments) {
   return values;
 }
 
+/// Files that only some samples read are not in the model's own hash. Those that are missing here are left to the runs.
+void check_files(const sweep::Table& table) {
+  const auto there = table.note("files");
+  if (!there) return;
+  const json files = json::parse(*there);
+  for (const auto& [path, noted] : files.items())
+    if (std::filesystem::is_regular_file(path) && hash(read_file(path)) != noted)
+      throw UsageError{
+          fmt::format("'{}' holds another sweep: '{}', which some of its runs read, has changed since; "
+                      "choose another --out",
+                      table.path(), path)};
+}
+
 /// Winners are run on seeds that no search of the file saw, not only the one that is asked for now.
 void check_fresh_seeds(const sweep::Table& table, const SweepOptions& options) {
   if (options.score.empty()) return;
   for (const auto& run : table.runs())
     if (!run.fresh && std::find(options.fresh.begin(), options.fresh.end(), run.seed) != options.fresh.end())
-      throw UsageError{fmt::format("--fresh-seeds: {} is a seed of a search in '{}'; fresh seeds are those the search "
-                                   "never saw",
-                                   run.seed, table.path())};
+      throw UsageError{
+          fmt::format("--fresh-seeds: {} is a seed of a search in '{}'; fresh seeds are those the search "
+                      "never saw",
+                      run.seed, table.path())};
 }
 
 }  // namespace
@@ -151,6 +165,21 @@ std::string difference(const std::string& there_text, const std::string& here_te
   return "";
 }
 
+void settle_files(sweep::Table& table, const std::string& files) {
+  if (files.empty()) return;
+  const auto there = table.note("files");
+  json noted = there ? json::parse(*there) : json::object();
+  const size_t before = noted.size();
+  const json read = json::parse(files);
+  for (const auto& [path, hash] : read.items())
+    if (noted.emplace(path, hash).first.value() != hash)
+      throw UsageError{
+          fmt::format("'{}' has changed since '{}' was begun: its runs do not fit together; choose another "
+                      "--out",
+                      path, table.path())};
+  if (noted.size() > before) table.set_note("files", noted.dump());
+}
+
 void settle_plan(sweep::Table& table, const SweepModel& model, const SweepOptions& options, const SweepPlan& plan) {
   const std::string identity = identity_of(options, plan).dump(), build = build_of_program();
   if (const auto there = table.note("identity")) {
@@ -163,6 +192,7 @@ void settle_plan(sweep::Table& table, const SweepModel& model, const SweepOption
     table.set_note("build", build);
     table.set_note("about", plan.about.json);
   }
+  check_files(table);
   check_fresh_seeds(table, options);
   if (table.note("build") != build && !options.quiet)
     say_warning(

@@ -25,6 +25,9 @@ SweepPlan make_plan(SweepModel& model, const SweepOptions& options);
 /// end time. Samples may become more. Errors: UsageError that says what differs.
 void settle_plan(sweep::Table& table, const SweepModel& model, const SweepOptions& options, const SweepPlan& plan);
 
+/// Notes files that a run has read, JSON of path -> hash. Errors: UsageError if one was another when it was noted.
+void settle_files(sweep::Table& table, const std::string& files);
+
 /// What differs between two identities in words; "" if nothing does.
 std::string difference(const std::string& there, const std::string& here);
 

@@ -80,14 +80,16 @@ bool read_answer(std::string& answer, Outcome& outcome) {
   if (!head.is_object() || !head.contains("status") || !head.contains("message")) return false;
   outcome.status = head.at("status");
   outcome.message = head.at("message");
+  outcome.files = head.value("files", "");
   outcome.result = answer.substr(end + 1);
   return true;
 }
 
 }  // namespace
 
-std::string answer_of(const std::string& status, const std::string& message, const std::string& result) {
-  const nlohmann::json head{{"status", status}, {"message", message}};
+std::string answer_of(const std::string& status, const std::string& message, const std::string& result,
+                      const std::string& files) {
+  const nlohmann::json head{{"status", status}, {"message", message}, {"files", files}};
   return head.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n" + result;
 }
 
@@ -118,7 +120,7 @@ void Pool::run_child(size_t job, int result, int log) {
     const char answer[] = "{\"status\":\"memory\",\"message\":\"out of memory\"}\n";
     if (write(result_descriptor, answer, sizeof answer - 1) < 0) code = script_error;
   } catch (const std::exception& error) {
-    if (!write_answer(result_descriptor, answer_of("failed", error.what(), ""))) code = file_error;
+    if (!write_answer(result_descriptor, answer_of("failed", error.what(), "", ""))) code = file_error;
   }
   std::fflush(nullptr);
   _exit(code);  // nothing of the parent's is to be closed or written

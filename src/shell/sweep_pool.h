@@ -23,13 +23,16 @@ struct Outcome {
   size_t job = 0;
   std::string status;   ///< done, failed, numerical, crashed, killed, time, memory
   std::string result;   ///< what it wrote, if it came to its end
+  std::string files;    ///< those that it read, as JSON: path -> hash; "" if it did not come to tell
   std::string message;  ///< why not
   std::string log;      ///< last lines of its standard error and output
   double seconds = 0, cpu_seconds = 0, megabytes = 0;
 };
 
-/// What a child writes to its parent, which believes nothing that the script may have printed.
-std::string answer_of(const std::string& status, const std::string& message, const std::string& result);
+/// What a child writes to its parent, which believes nothing that the script may have printed. The arguments are those
+/// fields of an Outcome.
+std::string answer_of(const std::string& status, const std::string& message, const std::string& result,
+                      const std::string& files);
 
 /// Local processes, a forked child for each run: it begins with what the parent has loaded, and whatever becomes of it
 /// (a crash, endless loops, eaten memory) is an outcome. The parent has a single thread and runs no model. Children die

@@ -57,12 +57,12 @@ sweep::Sample start_of(const SweepWork& work, const SweepOptions& options, const
 sweep::Sample settle_search(sweep::Table& table, const SweepWork& work, const SweepOptions& options,
                             const SweepPlan& plan) {
   json here{{"method", options.method},
-                  {"step", options.step},
-                  {"population", options.population},
-                  {"score", options.score},
-                  {"direction", options.minimize ? "minimize" : "maximize"},
-                  {"seeds", options.seeds},
-                  {"samples before it", plan.samples.size()}};
+            {"step", options.step},
+            {"population", options.population},
+            {"score", options.score},
+            {"direction", options.minimize ? "minimize" : "maximize"},
+            {"seeds", options.seeds},
+            {"samples before it", plan.samples.size()}};
   const auto text = table.note("search");
   if (!text) {
     here["start"] = start_of(work, options, plan);

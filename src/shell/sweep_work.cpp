@@ -82,6 +82,7 @@ void SweepWork::keep(const Task& task, const Outcome& outcome) {
                           .log = outcome.log,
                           .seconds = outcome.seconds,
                           .megabytes = outcome.megabytes};
+  if (files_.insert(outcome.files).second) settle_files(table_, outcome.files);
   table_.add_run(row);
   note(row);
   ++made_;

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <memory>
+#include <set>
 
 #include "shell/sweep_plan.h"
 #include "shell/sweep_pool.h"
@@ -64,6 +65,7 @@ class SweepWork {
   sweep::Table& table_;
   Scorer* scorer_;
   std::map<Key, Known> known_;
+  std::set<std::string> files_;  ///< that runs have told, seen to fit
   std::map<int64_t, sweep::SampleRow> samples_;
   std::map<sweep::Sample, int64_t> numbers_;
   size_t made_ = 0, failed_ = 0, expected_ = 0, passed_over_ = 0;

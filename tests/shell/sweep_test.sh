@@ -150,6 +150,19 @@ code 0 "$tunica" sweep start.lua a=0..10 --random 8 --refine 6 --score y --out s
 "$tunica" sweep show start.db --failures >failures.txt
 says failures.txt "no run failed"
 
+# --- A file that only some samples read.
+cat >some.lua <<'LUA'
+local P = require("tunica").params { a = 1 }
+return { y = P.a > 1 and require "part" or 0 }
+LUA
+echo "return 5" >part.lua
+code 0 "$tunica" sweep some.lua a=1,2 --grid --out some.db -q
+echo "return 6" >part.lua
+code 2 "$tunica" sweep some.lua a=1,2 --grid --seeds 1..2 --out some.db -q
+says err.txt "part.lua', which some of its runs read, has changed since"
+echo "return 5" >part.lua
+code 0 "$tunica" sweep some.lua a=1,2 --grid --seeds 1..2 --out some.db -q
+
 # --- Fresh seeds are those that no search of the file has seen.
 code 0 "$tunica" sweep said.lua D=1,2 --grid --seeds 1..4 --out seen.db -q
 code 2 "$tunica" sweep said.lua D=1,2 --grid --seeds 1 --fresh-seeds 3..5 --score x --out seen.db -q

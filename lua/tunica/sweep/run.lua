@@ -63,6 +63,13 @@ function run.describe(result, until_time)
   return core.encode(about)
 end
 
+--- The files that a run has read, as JSON: path -> hash. Some are read for some samples only.
+function run.files()
+  local files = {}
+  for _, source in ipairs(core.sources()) do files[source.path] = core.hash(source.text) end
+  return next(files) and core.encode(files) or "{}"
+end
+
 -- Series -----------------------------------------------------------------------------------------------------------
 
 --- Notes the numbers of a report in the statistics of the series so far.
