@@ -117,7 +117,7 @@ int absolute_path(lua_State* L) {
 /// core.shared_folder(name): where "scripts", "doc" or "stubs" are, installed or among the sources.
 int shared_folder(lua_State* L) {
   return guard(L, [&] {
-    lua_getfield(L, LUA_REGISTRYINDEX, "tunica.library");
+    lua_getfield(L, LUA_REGISTRYINDEX, "tunica.lua folder");
     const auto beside = std::filesystem::path(text_at(L, lua_gettop(L))).parent_path();
     std::error_code error;
     const auto in_sources = beside / "share" / text_at(L, 1);

@@ -145,7 +145,7 @@ int open_all(lua_State* L) {
   host(L);
   set_curves_folder(L, library);
   lua_pushlstring(L, library.data(), library.size());
-  lua_setfield(L, LUA_REGISTRYINDEX, "tunica.library");
+  lua_setfield(L, LUA_REGISTRYINDEX, "tunica.lua folder");
   open_core(L);
   return 0;
 }
