@@ -226,8 +226,7 @@ local function draw_plot(model, given)
   os.remove(name)
   local plotted = { file = name .. ".png", title = title_of(model, given), size = given.size }
   for key, value in pairs(options) do plotted[key] = value end
-  local ok, why = pcall(registry.module.plot, plotted)
-  if not ok then error(why, 0) end
+  registry.module.plot(plotted)
   local bytes = core.read_file(plotted.file)
   os.remove(plotted.file)
   return bytes

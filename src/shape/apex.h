@@ -40,7 +40,7 @@ class Apex : public Surface {
   /// The outward unit normal at a place; at the tip along the axis.
   Vec3 normal(const Place& place) const;
 
-  // For points of tissues: what many ask is read from tables, made when first asked, that agree with the above to 1e-11
+  // For points of tissues: what many ask is read from tables, made when first asked, that agree with the above to 1e-10
   // (relative to the size of the profile, and to a); where they do not serve, the same is found the longer way.
   Vec3 advance(const Vec3& p, double t, double dt) const override;
   Vec3 closest(const Vec3& p) const override;
