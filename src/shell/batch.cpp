@@ -56,7 +56,7 @@ void push_options(lua_State* L, const Options& options, const Script& script, co
   if (options.command == Options::Command::rerun) set_text(L, "rerun", options.directory);
   if (!options.quantity.empty()) set_text(L, "quantity", options.quantity);
   set_list(L, "methods", options.methods);
-  set_number(L, "error", options.error);
+  set_number(L, "error", options.error.value_or(1e-3));
   set_number(L, "repeats", options.repeats);
   if (options.seconds) set_number(L, "seconds", *options.seconds);
   set_list(L, "arguments", options.arguments);

@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "shell/sweep_options.h"
 
 namespace tunica::shell {
 
@@ -23,7 +24,8 @@ Commands:
   tunica models                list the shipped models
   tunica resume DIR            continue an interrupted run (--until T: beyond its end)
   tunica rerun DIR             repeat a run in a new directory and compare the result
-  tunica chart MODEL           the error of every method against its time, and which to take
+  tunica chart MODEL           the error of every method against its time, and which to take;
+                               with --score: the step that a pattern needs, over many seeds
   tunica stability MODEL       the largest step of every method
   tunica sweep MODEL ...       many runs: samples, a score, a search (tunica sweep --help)
   tunica curve FILE            draw a curve (.func, .con) in the terminal, or a new one
@@ -78,6 +80,40 @@ void add_script_options(CLI::App& app, Options& options) {
   app.add_option("arguments", options.arguments, "parameters of the model: key=value")->type_name("");
 }
 
+constexpr const char* chart_closing = R"(
+A model whose course is chaotic (cells divide, a pattern decides) has an error of 1 by every method in the long run. What is left to
+compare is the pattern: with --score each setting is run on many seeds, and its mean held against that of the finest steps.
+  tunica chart phyllotaxis/transport_apex --score spiral --seeds 1..24 --until 25 --methods euler,rkc2
+Steps that are parameters can be listed: step=.1,.2,.4. More: share/doc/methods.md.)";
+
+/// Of a chart of a score.
+void add_score_options(CLI::App& app, Options& options) {
+  const auto* group = "Chart of a pattern";
+  app.add_option("--score", options.score,
+                 "compare runs by this, not by their state: a Lua expression over the report (share/doc/sweeps.md)")
+      ->type_name("EXPR")
+      ->group(group);
+  app.add_option_function<std::string>(
+         "--seeds", [&](const std::string& text) { options.seeds = read_seeds("--seeds", text); },
+         "of the runs of each setting (default 1..12)")
+      ->type_name("A..B")
+      ->group(group);
+  app.add_option("--dt", options.steps, "steps to try (default: halved from coarse ones on)")
+      ->type_name("A,B")
+      ->delimiter(',')
+      ->group(group);
+  app.add_option("--tolerance", options.tolerances, "tolerances to try (default: decades from .1 on)")
+      ->type_name("A,B")
+      ->delimiter(',')
+      ->group(group);
+  app.add_option("--jobs,-j", options.jobs, "processes (default: cores)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 400))
+      ->group(group);
+  app.add_flag("--retry", options.retry, "run failed runs again")->group(group);
+  app.footer(chart_closing);
+}
+
 /// What `tunica chart` and `tunica stability` have in common, and what only one of them has.
 void add_study_options(CLI::App& app, Options& options) {
   const bool chart = options.command == Options::Command::chart;
@@ -93,10 +129,13 @@ void add_study_options(CLI::App& app, Options& options) {
       ->type_name("NAME");
   app.add_option("--seconds", options.seconds, "most that one run may take")->type_name("S");
   if (chart) {
-    app.add_option("--error", options.error, "recommend a method for this error (default 1e-3)")->type_name("E");
+    app.add_option("--error", options.error,
+                   "recommend a method for this error (default 1e-3; of a score: the difference that matters, .1)")
+        ->type_name("E");
     app.add_option("--repeats", options.repeats, "of runs shorter than 0.2 s; the least time counts (default 3)")
         ->type_name("N");
   }
+  if (chart) add_score_options(app, options);
   app.add_flag("-q,--quiet", options.quiet, "no progress, no notes");
   app.add_option_function<std::string>(
          "--seed", [&](const std::string& text) { options.seed = read_seed(text); },
@@ -117,11 +156,41 @@ std::string about_unknown(const CLI::App& app, const std::string& given) {
   return fmt::format("unknown option '{}'{}; `{} --help` lists them", bare, did_you_mean(bare, names), app.get_name());
 }
 
+/// What belongs to a chart of a score, and what to one of errors.
+void check_score(const Options& options) {
+  if (!options.score) {
+    const char* given = !options.seeds.empty()        ? "--seeds"
+                        : !options.steps.empty()      ? "--dt"
+                        : !options.tolerances.empty() ? "--tolerance"
+                        : options.jobs                ? "--jobs"
+                        : options.retry               ? "--retry"
+                                                      : nullptr;
+    if (given)
+      throw UsageError{fmt::format("{} is for a chart of a pattern: say by which --score it is compared", given)};
+    return;
+  }
+  if (options.score->find_first_not_of(" \t\n") == std::string::npos)
+    throw UsageError{"--score: expected an expression over the model's report, got nothing"};
+  if (options.seed) throw UsageError{"--seed: a chart of a score is of many seeds: --seeds 1..12"};
+  if (!options.quantity.empty())
+    throw UsageError{"--quantity is for errors of the state; with --score it says nothing"};
+  if (options.seeds.size() == 1)
+    throw UsageError{"--seeds: a mean with its error needs at least 2 seeds, and some 12 to say much (1..12)"};
+  for (const double dt : options.steps)
+    if (!(dt > 0 && std::isfinite(dt))) throw UsageError{fmt::format("--dt: expected steps above 0, got {}", dt)};
+  for (const double t : options.tolerances)
+    if (!(t > 0 && t <= 1))
+      throw UsageError{fmt::format("--tolerance: expected numbers above 0, at most 1, got {}", t)};
+}
+
 void check(const Options& options) {
   if (options.until && !(std::isfinite(*options.until) && *options.until >= 0))
     throw UsageError{fmt::format("--until: expected a time from 0 on, got {}", *options.until)};
   if (!(options.checkpoint > 0)) throw UsageError{"--checkpoint: expected a number of seconds above 0"};
-  if (!(options.error > 0 && options.error < 1)) throw UsageError{"--error: expected a number between 0 and 1"};
+  if (options.error && !(*options.error > 0 && (options.score ? std::isfinite(*options.error) : *options.error < 1)))
+    throw UsageError{options.score ? "--error: expected a difference of scores above 0"
+                                   : "--error: expected a number between 0 and 1"};
+  check_score(options);
   if (options.repeats < 1 || options.repeats > 1000) throw UsageError{"--repeats: expected a number from 1 to 1000"};
   if (options.seconds && !(*options.seconds > 0)) throw UsageError{"--seconds: expected a number of seconds above 0"};
   if (options.movie && options.frames == false) throw UsageError{"--movie needs frames; leave out --no-frames"};
@@ -161,6 +230,8 @@ std::optional<Options> read_options(int argc, char** argv) {
     add_study_options(app, options);
     if (!parse_arguments(app, argc - 1, argv + 1)) return std::nullopt;
     check(options);
+    if (options.seeds.empty())
+      for (uint64_t seed = 1; seed <= 12; ++seed) options.seeds.push_back(seed);
     return options;
   }
   if (first == "curve") {

@@ -29,10 +29,15 @@ struct Options {
   std::string colour = "auto";       ///< auto, always or never
   std::string quantity;              ///< chart, stability: what errors and patterns are of; "" = the default
   std::vector<std::string> methods;  ///< chart, stability: those to try; none = all
-  double error = 1e-3;               ///< chart: the error for which a method is recommended
+  std::optional<double> error;       ///< chart: for which a method is recommended (1e-3; .1 of a score)
   int repeats = 3;                   ///< chart: of runs shorter than 0.2 s
   std::optional<double> seconds;     ///< chart, stability: most that one run may take
-  double checkpoint = 60;            ///< seconds of wall clock between checkpoints
+  std::optional<std::string> score;  ///< chart: what runs on many seeds are compared by; none = errors of the state
+  std::vector<uint64_t> seeds;       ///< chart of a score
+  std::vector<double> steps, tolerances;  ///< chart of a score: those to try; none = the chart's own
+  int jobs = 0;                           ///< chart of a score: processes; 0 = as many as cores
+  bool retry = false;                     ///< chart of a score: failed runs are made again
+  double checkpoint = 60;                 ///< seconds of wall clock between checkpoints
 };
 
 /// Thrown for what is wrong with the command line: exit code 2.

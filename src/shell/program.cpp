@@ -18,6 +18,7 @@
 #include "shell/options.h"
 #include "shell/places.h"
 #include "shell/prompt.h"
+#include "shell/score_chart.h"
 #include "shell/screen.h"
 #include "shell/sweep.h"
 #include "shell/terminal.h"
@@ -198,6 +199,7 @@ int run_command(Options& options) {
     case Options::Command::rerun:
       return run_recorded(options);
     case Options::Command::chart:
+      return options.score ? chart_of_score(options) : run_study(options);
     case Options::Command::stability:
       return run_study(options);
     case Options::Command::curve:

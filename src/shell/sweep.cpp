@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
-#include <thread>
 
 #include "base/cancel.h"
 #include "base/error.h"
@@ -63,22 +62,6 @@ void say_how_it_went(const SweepWork& work, const SweepOptions& options) {
   say_note(fmt::format("{} runs in {:.1f} s{}; {} processes, busy {:.0f} %, {:.2f} cores used", work.made(),
                        work.wall_seconds(), work.failed() ? fmt::format(", {} failed", work.failed()) : "",
                        options.jobs, 100 * work.busy(), work.cpu_seconds() / work.wall_seconds()));
-}
-
-/// Opens the file, which belongs to this process alone from now on. Errors: UsageError.
-std::unique_ptr<sweep::Table> open_table(const std::string& path) {
-  try {
-    // A process that was killed a moment ago may still be going.
-    bool free = lock_file(path + ".lock");
-    for (int i = 0; i < 20 && !free; ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-      free = lock_file(path + ".lock");
-    }
-    if (!free) throw UsageError{fmt::format("'{}' is in use: another sweep writes to it", path)};
-    return std::make_unique<sweep::Table>(path, sweep::Table::Mode::write);
-  } catch (const Error& error) {
-    throw UsageError{error.what()};
-  }
 }
 
 /// All that is to be run. False when stopped by a signal.

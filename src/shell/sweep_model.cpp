@@ -115,14 +115,19 @@ int SweepModel::answer_error(int descriptor) {
   return session_.exit_code();
 }
 
-int SweepModel::answer(const char* function, std::optional<double> until, int descriptor) {
+int SweepModel::answer(const char* function, std::optional<double> until, const Values& solution, int descriptor) {
   lua_State* L = session_.lua();
   if (!require(session_, "tunica.sweep.run")) return answer_error(descriptor);
   lua_getfield(L, -1, function);
   lua_remove(L, -2);
   lua_insert(L, -2);  // below what the script returned
   until ? lua_pushnumber(L, *until) : lua_pushnil(L);
-  if (!session_.call(2, 2)) return answer_error(descriptor);
+  solution.empty() ? lua_pushnil(L) : lua_newtable(L);
+  for (const auto& [name, text] : solution) {
+    lua_pushlstring(L, text.data(), text.size());
+    lua_setfield(L, -2, name.c_str());
+  }
+  if (!session_.call(3, 2)) return answer_error(descriptor);
   size_t size = 0;
   if (const char* text = lua_tolstring(L, -2, &size))
     return write_all(descriptor, answer_of("done", "", std::string(text, size), files())) ? ok : file_error;
@@ -135,7 +140,7 @@ int SweepModel::answer(const char* function, std::optional<double> until, int de
 
 Description SweepModel::describe(const Values& values, std::optional<double> until, double seconds) {
   Pool pool(1, {.seconds = seconds}, [&](size_t, int descriptor) {
-    return load(values, 1) ? answer("describe", until, descriptor) : answer_error(descriptor);
+    return load(values, 1) ? answer("describe", until, {}, descriptor) : answer_error(descriptor);
   });
   pool.start(0);
   for (;;) {
@@ -147,8 +152,9 @@ Description SweepModel::describe(const Values& values, std::optional<double> unt
   }
 }
 
-int SweepModel::run(const Values& values, uint64_t seed, std::optional<double> until, int descriptor) {
-  return load(values, seed) ? answer("run", until, descriptor) : answer_error(descriptor);
+int SweepModel::run(const Values& values, const Values& solution, uint64_t seed, std::optional<double> until,
+                    int descriptor) {
+  return load(values, seed) ? answer("run", until, solution, descriptor) : answer_error(descriptor);
 }
 
 }  // namespace tunica::shell

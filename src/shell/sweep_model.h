@@ -33,12 +33,13 @@ class SweepModel {
   /// Loads the model in a child, within some seconds. Errors: UsageError with what the child said; Cancelled by a
   /// signal.
   Description describe(const Values& values, std::optional<double> until, double seconds);
-  /// In a child: takes the model to its end and writes its result to the descriptor. Returns an exit code.
-  int run(const Values& values, uint64_t seed, std::optional<double> until, int descriptor);
+  /// In a child: takes the model to its end and writes its result to the descriptor. `solution`: method, dt, tolerance;
+  /// empty for the model's own. Returns an exit code.
+  int run(const Values& values, const Values& solution, uint64_t seed, std::optional<double> until, int descriptor);
 
  private:
   bool load(const Values& values, uint64_t seed);
-  int answer(const char* function, std::optional<double> until, int descriptor);
+  int answer(const char* function, std::optional<double> until, const Values& solution, int descriptor);
   int answer_error(int descriptor);
   std::string files();
 

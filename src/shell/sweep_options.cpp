@@ -39,28 +39,6 @@ uint64_t read_whole(const char* option, const std::string& text) {
   return value;
 }
 
-/// "1..8", "1,2,5", "7"; in ascending order.
-std::vector<uint64_t> read_seeds(const char* option, const std::string& text) {
-  std::vector<uint64_t> seeds;
-  size_t from = 0;
-  while (from <= text.size()) {
-    const size_t comma = std::min(text.find(',', from), text.size());
-    const std::string part = text.substr(from, comma - from);
-    const size_t dots = part.find("..");
-    const uint64_t low = read_whole(option, part.substr(0, dots));
-    const uint64_t high = dots == std::string::npos ? low : read_whole(option, part.substr(dots + 2));
-    if (low > high) throw UsageError{fmt::format("{}: {}..{} is reversed; write {}..{}", option, low, high, high, low)};
-    if (high - low >= most_seeds || seeds.size() > most_seeds)
-      throw UsageError{fmt::format("{}: at most {} seeds", option, most_seeds)};
-    for (uint64_t seed = low; seed <= high; ++seed) seeds.push_back(seed);
-    from = comma + 1;
-  }
-  std::sort(seeds.begin(), seeds.end());
-  if (std::adjacent_find(seeds.begin(), seeds.end()) != seeds.end())
-    throw UsageError{fmt::format("{}: a seed is given twice in '{}'", option, text)};
-  return seeds;
-}
-
 void read_shard(SweepOptions& options, const std::string& text) {
   const size_t slash = text.find('/');
   const auto whole = [&](const std::string& part) {
@@ -168,6 +146,27 @@ void complete(SweepOptions& o) {
 }
 
 }  // namespace
+
+std::vector<uint64_t> read_seeds(const char* option, const std::string& text) {
+  std::vector<uint64_t> seeds;
+  size_t from = 0;
+  while (from <= text.size()) {
+    const size_t comma = std::min(text.find(',', from), text.size());
+    const std::string part = text.substr(from, comma - from);
+    const size_t dots = part.find("..");
+    const uint64_t low = read_whole(option, part.substr(0, dots));
+    const uint64_t high = dots == std::string::npos ? low : read_whole(option, part.substr(dots + 2));
+    if (low > high) throw UsageError{fmt::format("{}: {}..{} is reversed; write {}..{}", option, low, high, high, low)};
+    if (high - low >= most_seeds || seeds.size() > most_seeds)
+      throw UsageError{fmt::format("{}: at most {} seeds", option, most_seeds)};
+    for (uint64_t seed = low; seed <= high; ++seed) seeds.push_back(seed);
+    from = comma + 1;
+  }
+  std::sort(seeds.begin(), seeds.end());
+  if (std::adjacent_find(seeds.begin(), seeds.end()) != seeds.end())
+    throw UsageError{fmt::format("{}: a seed is given twice in '{}'", option, text)};
+  return seeds;
+}
 
 std::optional<SweepOptions> read_sweep_options(int argc, char** argv) {
   SweepOptions options;

@@ -47,6 +47,9 @@ struct SweepOptions {
   std::optional<int64_t> row;     ///< show: all of one sample
 };
 
+/// "1..8", "1,2,5", "7"; in ascending order. Errors: UsageError that names the option.
+std::vector<uint64_t> read_seeds(const char* option, const std::string& text);
+
 /// Reads the command line behind `tunica sweep`. Returns nothing if it was --help, which has then been printed. Errors:
 /// UsageError.
 std::optional<SweepOptions> read_sweep_options(int argc, char** argv);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "base/bytes.h"
 #include "base/error.h"
@@ -117,7 +118,16 @@ void check_fresh_seeds(const sweep::Table& table, const SweepOptions& options) {
 
 Values SweepPlan::values(const sweep::Sample& sample) const {
   Values values;
-  for (size_t i = 0; i < ranges.size(); ++i) values[ranges[i].name] = sample[i];
+  for (size_t i = 0; i < ranges.size(); ++i)
+    if (!ranges[i].name.starts_with(solution_prefix)) values[ranges[i].name] = sample[i];
+  return values;
+}
+
+Values SweepPlan::solution(const sweep::Sample& sample) const {
+  Values values;
+  for (size_t i = 0; i < ranges.size(); ++i)
+    if (ranges[i].name.starts_with(solution_prefix) && !sample[i].empty())
+      values[ranges[i].name.substr(solution_prefix.size())] = sample[i];
   return values;
 }
 
@@ -178,6 +188,21 @@ void settle_files(sweep::Table& table, const std::string& files) {
                       "--out",
                       path, table.path())};
   if (noted.size() > before) table.set_note("files", noted.dump());
+}
+
+std::unique_ptr<sweep::Table> open_table(const std::string& path) {
+  try {
+    // A process that was killed a moment ago may still be going.
+    bool free = lock_file(path + ".lock");
+    for (int i = 0; i < 20 && !free; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      free = lock_file(path + ".lock");
+    }
+    if (!free) throw UsageError{fmt::format("'{}' is in use: another sweep writes to it", path)};
+    return std::make_unique<sweep::Table>(path, sweep::Table::Mode::write);
+  } catch (const Error& error) {
+    throw UsageError{error.what()};
+  }
 }
 
 void settle_plan(sweep::Table& table, const SweepModel& model, const SweepOptions& options, const SweepPlan& plan) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+#include <string_view>
+
 #include "shell/sweep_model.h"
 #include "shell/sweep_options.h"
 #include "sweep/samples.h"
@@ -16,7 +19,13 @@ struct SweepPlan {
 
   /// A sample's parameters by name.
   Values values(const sweep::Sample& sample) const;
+  /// How a sample is solved: what stands in ranges named "solution.method", "solution.dt", "solution.tolerance", which
+  /// are no parameters; of texts that are empty nothing. Only charts have them.
+  Values solution(const sweep::Sample& sample) const;
 };
+
+/// What the names of such ranges begin with.
+inline constexpr std::string_view solution_prefix = "solution.";
 
 /// Reads ranges against the model and makes the samples. Errors: UsageError.
 SweepPlan make_plan(SweepModel& model, const SweepOptions& options);
@@ -24,6 +33,9 @@ SweepPlan make_plan(SweepModel& model, const SweepOptions& options);
 /// Writes the plan into the file, or checks that what the file holds is of the same: script, version, ranges, sampling,
 /// end time. Samples may become more. Errors: UsageError that says what differs.
 void settle_plan(sweep::Table& table, const SweepModel& model, const SweepOptions& options, const SweepPlan& plan);
+
+/// Opens a file, which belongs to this process alone from now on. Errors: UsageError.
+std::unique_ptr<sweep::Table> open_table(const std::string& path);
 
 /// Notes files that a run has read, JSON of path -> hash. Errors: UsageError if one was another when it was noted.
 void settle_files(sweep::Table& table, const std::string& files);

@@ -116,7 +116,8 @@ bool SweepWork::run(const std::vector<Task>& all) {
   if (tasks.empty()) return true;
   const double memory = options_.memory > 0 ? options_.memory : default_memory(options_.jobs);
   Pool pool(options_.jobs, {options_.time_limit, memory}, [&](size_t i, int descriptor) {
-    return model_.run(plan_.values(samples_.at(tasks[i].sample).parameters), tasks[i].seed, options_.until, descriptor);
+    const auto& sample = samples_.at(tasks[i].sample).parameters;
+    return model_.run(plan_.values(sample), plan_.solution(sample), tasks[i].seed, options_.until, descriptor);
   });
   const auto begun = Clock::now();
   size_t next = 0;

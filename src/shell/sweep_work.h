@@ -41,6 +41,12 @@ class SweepWork {
   /// Mean score over seeds; nothing if a run failed or has no score. `why`, if given, is then told.
   std::optional<double> score(int64_t sample, const std::vector<uint64_t>& seeds, std::string* why = nullptr) const;
 
+  /// Score of one run; null if it was not made.
+  const Score* score_of(int64_t sample, uint64_t seed) const {
+    const auto found = known_.find({sample, seed});
+    return found == known_.end() ? nullptr : &found->second.score;
+  }
+
   const std::map<int64_t, sweep::SampleRow>& samples() const { return samples_; }
   /// For the line of progress: runs that are to come in all, and words at its end.
   void expect(size_t runs) { expected_ = runs; }

@@ -52,8 +52,8 @@ end
 
 -- Methods ----------------------------------------------------------------------------------------------------------
 
---- Puts the methods asked for (all, if none are named) into self.methods, in the kernel's order.
-local function choose_methods(self)
+--- Puts the methods asked for (all, if none are named) into self.methods, in the kernel's order. Errors: of the command line.
+function study.choose_methods(self)
   local names, asked = {}, {}
   for i, way in ipairs(core.methods_of_solution()) do names[i] = way.name end
   for _, name in ipairs(self.options.methods) do
@@ -149,7 +149,7 @@ function study.begin(model, options, kind, default)
   if next(core.overrides()) and not params.current() then
     study.refuse("the model declares no parameters (tunica.params); there is nothing to change by '%s'", options.arguments[1] or "")
   end
-  choose_methods(self)
+  study.choose_methods(self)
   self.goal = options.until_time or model.stop
   if type(self.goal) ~= "number" then
     study.refuse("at which time are the runs to be compared? Say --until T, or stop = T in tunica.model { ... }")

@@ -30,7 +30,8 @@ local function kind_of(result)
   return next(result) and "values" or nil
 end
 
---- What a sweep must know of a model before its first run. Errors: no model, no report, no end.
+--- What a sweep must know of a model before its first run; of a model with rates also how it is solved. Errors: no model, no
+-- report, no end.
 function run.describe(result, until_time)
   local kind = kind_of(result)
   if not kind then refuse "the script returned no model; a sweep needs one (or a table of named values)" end
@@ -54,6 +55,7 @@ function run.describe(result, until_time)
     end
     local _, unit = outputs.size(result)
     about.unit = unit
+    about.solution = optional(result, "solution") and result:solution()
   else
     for name in pairs(result) do table.insert(about.reports, name) end
   end
@@ -95,8 +97,9 @@ end
 
 -- Running ----------------------------------------------------------------------------------------------------------
 
---- Takes the model to its end; the reports of the series come when a batch run would take them.
-local function run_model(model, until_time)
+--- Takes the model to its end; the reports of the series come when a batch run would take them. With a solution the run is solved
+-- by it, and notes its course (tunica.chart.look).
+local function run_model(model, until_time, solution)
   local goal, most = until_time or optional(model, "stop"), optional(model, "most")
   local list, series, last = {}, {}, nil
   local function row()
@@ -104,6 +107,7 @@ local function run_model(model, until_time)
     last = model.time
   end
   list[1] = { every = model.report_every, count = 0, write = row }
+  list[2] = solution and require("tunica.chart.look").begin(model, solution, goal)
   local _ = model.about  -- binds the rules
   while true do
     outputs.emit(list, model.time)
@@ -111,9 +115,10 @@ local function run_model(model, until_time)
     model:advance { to = goal, pause = outputs.next_time(list) }
   end
   if last ~= model.time then row() end
+  local course = list[2] and require("tunica.chart.look").finish(list[2])
   local size, unit = outputs.size(model)
   local result = { time = model.time, steps = model.steps, [unit] = size, hash = model:hash(), report = {},
-    series = model.report_every and summary(series) or nil }
+    course = course or nil, series = model.report_every and summary(series) or nil }
   for _, entry in ipairs(outputs.reports(model)) do result.report[entry.name] = entry.value end
   return result
 end
@@ -126,11 +131,12 @@ local function parameters_now()
   return next(list) and list or nil
 end
 
---- The result of one run as JSON; nil and a message after a numerical failure.
-function run.run(result, until_time)
+--- The result of one run as JSON; nil and a message after a numerical failure. `solution`: { method =, dt =, tolerance = } as
+-- texts, or nil for the model's own.
+function run.run(result, until_time, solution)
   local parameters = parameters_now()
   if kind_of(result) == "values" then return core.encode { report = outputs.plain(result), parameters = parameters } end
-  local ok, values = pcall(run_model, result, until_time)
+  local ok, values = pcall(run_model, result, until_time, solution)
   if ok then
     values.parameters = parameters
     return core.encode(values)
