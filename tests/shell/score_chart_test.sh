@@ -7,7 +7,7 @@ source "$(dirname "$0")/common.sh"
 # than 3 / k throws them below zero, where they stay: no more beats. Without `signed` the kernel stops such a run.
 cat >beats.lua <<'LUA'
 local tunica = require "tunica"
-local P = tunica.params { k = 12, chance = 0.2, signed = true, every = 0.25, wait = 0, tail = 0, untraced = false, method = "euler" }
+local P = tunica.params { k = 12, chance = 0.2, signed = true, every = 0.25, wait = 0, untraced = false, method = "euler" }
 local core = require "tunica.core"
 local tissue = tunica.ring { 20 }
 tissue:cell { x = 0.5 }
@@ -24,8 +24,7 @@ model:every(P.every, function()
   local begun = core.now()
   while core.now() - begun < P.wait / 40 do end
 end)
-model:report { beats = function() return beats end, level = function() return tissue:mean "x" end, word = function() return "x" end,
-  late = function() return model.time > 9 and 1 or P.tail end }
+model:report { beats = function() return beats end, level = function() return tissue:mean "x" end, word = function() return "x" end }
 return model
 LUA
 chart() { "$tunica" chart beats.lua "$@"; }
@@ -70,6 +69,7 @@ code 0 chart --score level --seeds 1..7 --methods euler --dt 0.05,0.0125 --out o
 [ "$(runs one)" = $((before + 2)) ] || wrong "a seventh seed for two steps made $(runs one) runs of $before"
 code 2 chart k=11 --score level --seeds 1..6 --methods euler --out one; says err.txt "k=11"
 code 2 chart --score level --seeds 1..6 --until 3 --out one; says err.txt "until is 3"
+code 2 chart --out one; says err.txt "it is of tunica chart --score"
 mkdir -p full && touch full/file
 code 2 chart --score level --out full; says err.txt "not empty"
 # Ctrl-C keeps the runs that are done.
@@ -85,15 +85,20 @@ says out.txt "euler dt 0.0125"; [ "$(cell silent/chart.csv euler dt 0.25 11)" = 
 # Runs that the kernel stops, with cell and time.
 code 0 chart --score level --seeds 1..5 --methods euler --dt 0.0125,0.25 --out loud k=16 signed=false
 says out.txt "5 of 5 blow up, t = "; says out.txt "x became -"; says out.txt "in cell "; says out.txt "How runs failed"
-# A tolerance so loose that the state goes wrong; a finest setting that fails itself.
+# Runs that take too long are rows too, and made again when asked for.
+code 3 chart wait=1 --score level --seeds 1..2 --methods euler --dt 0.01,0.02 --out slowly --seconds 0.3
+says err.txt "fails itself on 2 of 2 seeds"; says out.txt "2 of 2 are out of time"
+code 0 chart wait=1 --score level --seeds 1..2 --methods euler --dt 0.01,0.02 --out slowly --retry; says out.txt "Cheapest"
+# A finest setting that fails itself; a method that cannot do the model.
 code 3 chart --score level --seeds 1..5 --methods euler --dt 0.25 --out broken k=16 signed=false
 says err.txt "the finest setting, euler dt 0.25, fails itself on 5 of 5 seeds"; says err.txt "name finer ones: --dt"
 code 0 chart untraced=true --score level --seeds 1..2 --methods euler,backward_euler --dt 0.02,0.01 --out slow
 says out.txt "cannot be traced"
 
 # --- Seeds that are too few for the difference that matters; how many it takes.
-code 0 chart chance=1 --score "level * 10" --seeds 1..3 --methods euler --dt 0.15,0.01 --error 0.0001 --out few
-grep -q "some [0-9]* are needed\|That is the finest" out.txt || wrong "too few seeds: nothing said"
+# Two courses that have nothing in common but their mean: throwing back half as often costs half.
+code 0 chart every=0.25,0.5 wait=0.2 --score level --seeds 1..3 --methods euler --dt 0.01 --error 0.01 --out few
+says out.txt "with these 3 seeds; that is too few to tell one of 0.01: some 15 are needed"; says out.txt "every 0.5"
 code 0 chart --score level --seeds 1..3 --methods euler --dt 0.01,0.0001 --out same
 says out.txt "would have shown with these 3 seeds"
 

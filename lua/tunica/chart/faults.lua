@@ -9,6 +9,7 @@ local faults = {}
 local below_zero = 0.01   -- of the greatest value: more than that below zero is no rounding, nor within a tolerance
 local beyond = 10         -- times the greatest value of the finest runs
 local longer = 2          -- times the longest pause in any of the finest runs
+local at_rest = 1e-3      -- what changes by less towards the end, of its sum between two looks, may as well stand still
 
 --- What the finest runs do, all seeds together: columns -> least, greatest, how long before the end they still change; counts ->
 -- longest pause. Counts that do not rise in every one of them are left out.
@@ -16,9 +17,9 @@ function faults.measure(courses, goal)
   local self = { columns = {}, counts = {}, goal = goal }
   for n, course in ipairs(courses) do
     for name, c in pairs(course.columns) do
-      local all = self.columns[name] or { least = math.huge, greatest = -math.huge, still = 0 }
+      local all = self.columns[name] or { least = math.huge, greatest = -math.huge, still = 0, drift = math.huge }
       all.least, all.greatest = math.min(all.least, c.least), math.max(all.greatest, c.greatest)
-      all.still = math.max(all.still, goal - c.moved)
+      all.still, all.drift = math.max(all.still, goal - c.moved), math.min(all.drift, c.drift or 0)
       self.columns[name] = all
     end
     for name, c in pairs(course.counts) do
@@ -51,7 +52,7 @@ local function of_column(self, name, c)
         at(c[extreme .. "_at"]), study.short(size)), c[extreme .. "_at"]
     end
   end
-  if self.goal - c.moved > math.max(longer * all.still, 0.1 * self.goal) then
+  if all.drift > at_rest and self.goal - c.moved > math.max(longer * all.still, 0.1 * self.goal) then
     return string.format("%s does not change any more after %s", name, at(c.moved)), c.moved
   end
 end

@@ -8,6 +8,7 @@ local outputs = require "tunica.run.outputs"
 local look = {}
 
 local looks = 60  -- in a run
+local last = 6    -- of them: how much a column still changes
 
 --- Puts the solution in place. Errors: the method needs derivatives that the rules do not give.
 local function solve(model, solution)
@@ -30,7 +31,8 @@ function look.begin(model, solution, goal)
   local self = { model = model, every = goal / looks, count = 0, columns = {}, counts = {}, begun = os.clock(), spent = 0 }
   self.solution = solve(model, solution)
   for i, column in ipairs(model:state_columns()) do
-    self.columns[i] = { name = column.name, kind = column.kind, least = math.huge, greatest = -math.huge, moved = model.time }
+    self.columns[i] = { name = column.name, kind = column.kind, least = math.huge, greatest = -math.huge, moved = model.time,
+      changes = {} }
   end
   self.write = function() look.take(self) end
   return self
@@ -46,6 +48,9 @@ local function note_column(self, column, time)
     sum, weighted = sum + value, weighted + i * value
   end
   if sum ~= column.sum or weighted ~= column.weighted then column.moved = time end
+  local size = math.max(math.abs(sum), math.abs(column.sum or sum))
+  table.insert(column.changes, size > 0 and math.abs(sum - (column.sum or sum)) / size or 0)
+  if #column.changes > last then table.remove(column.changes, 1) end
   column.sum, column.weighted = sum, weighted
 end
 
@@ -85,7 +90,7 @@ function look.finish(self)
   for _, c in ipairs(self.columns) do
     sums[#sums + 1] = core.shortest(c.sum) .. " " .. core.shortest(c.weighted)
     columns[c.name] = { least = c.least, least_at = c.least_at, greatest = c.greatest, greatest_at = c.greatest_at,
-      moved = c.moved }
+      moved = c.moved, drift = math.max(0, unpack(c.changes)) }
   end
   for name, c in pairs(self.counts) do
     local pause = math.max(c.pause, model.time - c.rose)

@@ -87,7 +87,8 @@ local function check(self, floor, about, needed)
   if floor <= needed then return end
   self.code = study.exit.numerical
   error(string.format("the reference does not converge: %s; they must agree to %s. Is the model chaotic by then, or does an event " ..
-    "depend on the last bits? Try a smaller --until, a --quantity that is a mean, or a larger --error", about, study.short(needed)), 0)
+    "depend on the last bits? Try a smaller --until, a --quantity that is a mean, a larger --error; or compare patterns over " ..
+    "many seeds: --score", about, study.short(needed)), 0)
 end
 
 --- Makes self.reference = { values, floor, by_means, about }, or reads it. `needed`: how near two methods must be, relative.
