@@ -104,7 +104,7 @@ code 3 "$tunica" chart chaos.lua --out chaos --methods heun --seconds 1
 says err.txt "the reference does not converge"; [ -s chaos/chart.json ] || wrong "chart.json is not kept"
 
 # Ctrl-C keeps the rows; the same command goes on.
-timeout -s INT 1 "$tunica" chart ring.lua --methods euler --error 1e-8 --seconds 5 --out stopped >out.txt 2>err.txt </dev/null
+timeout --foreground -s INT 1 "$tunica" chart ring.lua --methods euler --error 1e-8 --seconds 5 --out stopped >out.txt 2>err.txt </dev/null
 [ -s stopped/chart.csv ] || wrong "no rows after Ctrl-C"
 says err.txt "to continue: the same command with --out stopped"
 

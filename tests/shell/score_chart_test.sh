@@ -8,7 +8,6 @@ source "$(dirname "$0")/common.sh"
 cat >beats.lua <<'LUA'
 local tunica = require "tunica"
 local P = tunica.params { k = 12, chance = 0.2, signed = true, every = 0.25, wait = 0, untraced = false, method = "euler" }
-local core = require "tunica.core"
 local tissue = tunica.ring { 20 }
 tissue:cell { x = 0.5 }
 local model = tunica.model { tissue = tissue, params = P, dt = 0.05, stop = 10, method = P.method, signed = P.signed and { "x" } or nil }
@@ -21,8 +20,8 @@ local beats = 0
 model:every(P.every, function()
   if tissue:mean "x" > 0.5 then beats = beats + 1 end
   for c in tissue:cells() do c.x = c.x * (1 - P.chance * math.random()) end
-  local begun = core.now()
-  while core.now() - begun < P.wait / 40 do end
+  local begun = os.clock()
+  while os.clock() - begun < P.wait / 40 do end
 end)
 model:report { beats = function() return beats end, level = function() return tissue:mean "x" end, word = function() return "x" end }
 return model
@@ -73,7 +72,15 @@ code 2 chart --out one; says err.txt "it is of tunica chart --score"
 mkdir -p full && touch full/file
 code 2 chart --score level --out full; says err.txt "not empty"
 # Ctrl-C keeps the runs that are done.
-timeout -s INT 2 "$tunica" chart beats.lua wait=0.3 --score level --seeds 1..40 --methods euler --out stopped -j 2 >out.txt 2>err.txt </dev/null
+"$tunica" chart beats.lua wait=0.2 --score level --seeds 1..400 --methods euler --out stopped -j 2 >out.txt 2>err.txt </dev/null &
+process=$!
+for _ in $(seq 200); do
+  [ "$(runs stopped 2>/dev/null)" -gt 2 ] 2>/dev/null && break
+  sleep 0.1
+done
+kill -INT $process
+wait $process
+[ $? -eq 130 ] || wrong "SIGINT: not 130"
 says err.txt "to continue: the same command with --out stopped"
 [ "$(runs stopped)" -gt 2 ] || wrong "no runs after Ctrl-C"; [ -s stopped/chart.csv ] || wrong "no rows after Ctrl-C"
 

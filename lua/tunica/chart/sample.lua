@@ -45,16 +45,25 @@ function sample.mean(values)
 end
 
 --- When a run that broke down did so, as its message says.
-local function time_of(message) return tonumber(message:match " at time ([%d.e+-]+)") end
+local function time_of(message) return tonumber(message:match " [at][to] time ([%d.e+-]+)") end
 
 --- How runs fail, by the status of a sweep's row.
-local ways = { numerical = "blow up", time = "are out of time", memory = "are out of memory", crashed = "crash",
+local ways = { time = "are out of time", memory = "are out of memory", crashed = "crash",
   killed = "are killed" }
+
+--- Whether a numerical failure is of values that run away, and not of a method that finds no solution.
+local function bursts(message)
+  for _, word in ipairs { " became ", "negative", "finite", "turns round" } do
+    if message:find(word, 1, true) then return true end
+  end
+  return false
+end
 
 --- Why a run does not count, when, and how it failed in few words; nil if it counts.
 local function trouble(run, reference)
   if run.status ~= "done" then
-    return run.message ~= "" and run.message or run.status, time_of(run.message), ways[run.status] or "fail"
+    local how = run.status == "numerical" and (bursts(run.message) and "blow up" or "break down") or ways[run.status] or "fail"
+    return run.message ~= "" and run.message or run.status, time_of(run.message), how
   end
   if not run.score then return run.why, nil, sample.no_score end
   if reference and run.course then

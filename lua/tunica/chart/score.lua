@@ -211,7 +211,8 @@ function score.begin(options)
   series_of(self)
   open_folder(self)
   self.record = { identity = { kind = "chart --score" }, name = options.name, score = options.score,
-    seeds = core.as_list(options.seeds), ["until"] = self.goal, versions = core.decode(options.versions), arguments = core.as_list(options.arguments) }
+    seeds = core.as_list(options.seeds), ["until"] = self.goal, versions = core.decode(options.versions),
+    arguments = core.as_list(options.arguments) }
   self.course = coroutine.create(function() all(self) end)
   return self
 end

@@ -38,8 +38,8 @@ local function reasons(list)
   for i, row in ipairs(list) do
     local kinds = report.kinds(row)
     if kinds[1] then
-      local how = kinds[2] and "fail, " .. #kinds[1] .. " " .. kinds[1].how or kinds[1].how
-      local words = string.format("%d of %d %s", #row.failures, #row.runs, how)
+      local how = kinds[2] and string.format(": %d %s", #kinds[1], kinds[1].how) or " " .. kinds[1].how
+      local words = string.format("%d of %d%s", #row.failures, #row.runs, how)
       parts[#parts + 1] = string.format("set label %d %s at graph 0.03, first %d left front font ',10' noenhanced", 100 + i,
         quoted(words), #list - i)
     end

@@ -21,7 +21,7 @@ end
 function report.brief(why)
   local limit = why:match "above this method's limit of about ([%d.e+-]+)"
   local text = why:gsub(" %(method [^)]*%)", ""):gsub(": a concentration cannot be.*", ""):gsub(" Look at its rule.*", "")
-    :gsub("; try a smaller dt.*", ""):gsub("%.$", "")
+    :gsub("; try a smaller dt.*", ""):gsub(": its iterations.*", ""):gsub("%.$", "")
   return limit and string.format("%s; dt is at most %s there", text, limit) or text
 end
 
@@ -43,17 +43,18 @@ end
 
 -- Which to take ----------------------------------------------------------------------------------------------------
 
-local noise = 1.05  -- of seconds: among those that differ by less the one with the fewest evaluations is taken
-
---- The cheapest row that keeps the score; of one method, if named.
+--- The cheapest row that keeps the score; of one method, if named. Within a method and combination evaluations tell which is
+-- cheaper, since seconds are disturbed by whatever else runs; between them seconds.
 local function cheapest(self, method)
-  local least, best = math.huge, nil
-  local function of_kind(row) return row.keeps and (not method or row.method == method) end
+  local least, best = {}, nil
   for _, row in ipairs(self.rows) do
-    if of_kind(row) then least = math.min(least, row.seconds) end
+    local key = string.format("%s %d", row.method, row.combination)
+    local other = least[key]
+    if row.keeps and (not other or row.evaluations < other.evaluations) then least[key] = row end
   end
   for _, row in ipairs(self.rows) do
-    if of_kind(row) and row.seconds <= noise * least and (not best or row.evaluations < best.evaluations) then best = row end
+    local found = least[string.format("%s %d", row.method, row.combination)] == row and (not method or row.method == method)
+    if found and (not best or row.seconds < best.seconds) then best = row end
   end
   return best
 end
