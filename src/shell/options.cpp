@@ -101,10 +101,12 @@ void add_score_options(CLI::App& app, Options& options) {
   app.add_option("--dt", options.steps, "steps to try (default: halved from coarse ones on)")
       ->type_name("A,B")
       ->delimiter(',')
+      ->allow_extra_args(false)  // what follows may be a parameter
       ->group(group);
   app.add_option("--tolerance", options.tolerances, "tolerances to try (default: decades from .1 on)")
       ->type_name("A,B")
       ->delimiter(',')
+      ->allow_extra_args(false)  // what follows may be a parameter
       ->group(group);
   app.add_option("--jobs,-j", options.jobs, "processes (default: cores)")
       ->type_name("N")
@@ -122,7 +124,10 @@ void add_study_options(CLI::App& app, Options& options) {
          fmt::format("folder, continued if it is there (default runs/MODEL-{}-N)", chart ? "chart" : "stability"))
       ->type_name("DIR");
   app.add_option("--until", options.until, "model time at which runs end and are compared")->type_name("T");
-  app.add_option("--methods", options.methods, "only these, separated by commas")->type_name("A,B")->delimiter(',');
+  app.add_option("--methods", options.methods, "only these, separated by commas")
+      ->type_name("A,B")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   app.add_option("--quantity", options.quantity,
                  chart ? "column, or number that the model reports, whose error counts (default: every column of state)"
                        : "column whose maxima are the pattern (default: the first column of state)")

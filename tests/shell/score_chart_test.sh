@@ -110,7 +110,7 @@ code 0 chart --score level --seeds 1..3 --methods euler --dt 0.01,0.0001 --out s
 says out.txt "would have shown with these 3 seeds"
 
 # --- Steps that are parameters.
-code 0 chart every=0.25,0.5 --score level --seeds 1..3 --methods euler --dt 0.02,0.01 --out listed
+code 0 chart --score level --seeds 1..3 --out listed --methods euler --dt 0.02,0.01 every=0.25,0.5
 says out.txt "every"; says err.txt "the finest: euler dt 0.01, every 0.25"; [ "$(grep -c "every=0.5" listed/chart.csv)" = 2 ] || wrong "every=0.5"
 
 # --- Wrong command lines.
