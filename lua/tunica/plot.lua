@@ -106,7 +106,7 @@ local look = [[
 set border 3 lc rgb '#888888'
 set tics nomirror textcolor rgb '#333333'
 set grid lc rgb '#d4d4d4' lw 0.7
-set key outside right top vertical samplen 2 spacing 1.2 reverse Left
+set key above right horizontal samplen 2 spacing 1.2 reverse Left
 ]]
 
 local function commands_of(given, list)

@@ -26,6 +26,8 @@ local arguments = {
     doc = "colour map, by name or as a list of colours that it runs through" },
   { name = "range", type = "list", count = { 1, 2 }, of = "number",
     doc = "values at the ends of the colour map, { low, high }; by default those that occur (from 0, if they start near it)" },
+  { name = "missing", type = "string|table", doc = "colour of cells without a value, by default grey; or { colour, title = } with what " ..
+    "the legend calls them" },
   { name = "legend", type = "string|boolean", default = true, doc = "title of the colour bar; false: no legend" },
   { name = "sides", type = "string|function|table", doc = "bands along walls, inside the cell: " .. shown ..
     " of sides; or { column or function, max = value of the widest band, colour =, style = 'width' or 'intensity', " ..
@@ -41,8 +43,8 @@ local arguments = {
   { name = "bars", type = "boolean", doc = "a line or ring as bars (default) or as squares" },
   { name = "place", type = "function", doc = "function(c) that returns x, y, z: the cells of a grid or cylinder span a surface" },
   { name = "wireframe", type = "boolean", doc = "with place: only lines between neighbours" },
-  { name = "camera", type = "table", doc = "{ direction = { x, y, z }, up =, perspective = true or false, zoom =, centre =, " ..
-    "extent = half of what must fit }" },
+  { name = "camera", type = "table|function", doc = "{ direction = { x, y, z }, up =, perspective = true or false, zoom =, centre =, " ..
+    "extent = half of what must fit }; or a function that returns this, so that the camera follows what it looks at" },
   { name = "light", type = "boolean", doc = "a lamp, so that surfaces in space look round; on by default where `place` is given" },
   { name = "background", type = "string", doc = "colour of the ground" },
   { name = "transparent", type = "boolean", doc = "no ground" },
@@ -52,6 +54,7 @@ local arguments = {
 }
 
 local side_options = { "max", "colour", "style", "width", "title" }
+local missing_options = { "title" }
 local marker_options = { "shape", "colour", "size" }
 local camera_options = { "direction", "up", "perspective", "zoom", "centre", "extent" }
 
@@ -110,8 +113,25 @@ local function read_markers(given, out)
   out.marker_size = option("size", given, "markers", { type = "number", above = 0, max = 1000 })
 end
 
-local function read_camera(given, out)
+local function read_missing(given, out)
   if given == nil then return end
+  if type(given) ~= "table" then given = { given } end
+  check_keys("missing", given, missing_options)
+  if given[1] == nil and given.title == nil then fail("missing: write missing = 'black', or { 'black', title = 'dead' }") end
+  out.missing = colour("missing", given[1])
+  out.missing_title = option("title", given, "missing", { type = "string" })
+end
+
+--- `drawing`: a camera that is a function is asked for now, and not only checked to be one.
+local function read_camera(given, out, drawing)
+  if given == nil then return end
+  if type(given) == "function" then
+    if not drawing then return end
+    given = given()
+    if type(given) ~= "table" then
+      fail("camera: the function must return a table { direction = ... }, returned %s", core.describe(given))
+    end
+  end
   check_keys("camera", given, camera_options)
   out.camera = {}
   for _, name in ipairs { "direction", "up", "centre" } do out.camera[name] = option(name, given, "camera", { type = "vector" }) end
@@ -125,8 +145,9 @@ local function read_outline(given, out)
   if type(given.outline) == "string" then out.outline = colour("outline", given.outline) end
 end
 
---- What core.draw takes, from the options a user gave (checked one by one already); errors for what does not fit.
-local function settings_of(given)
+--- What core.draw takes, from the options a user gave (checked one by one already); errors for what does not fit. `drawing`: for
+-- a picture of the present, not only to check them.
+local function settings_of(given, drawing)
   local out = { palette = given.palette, colour = given.colour, labels = given.labels, bars = given.bars, place = given.place,
     wireframe = given.wireframe, light = given.light, transparent = given.transparent }
   for _, name in ipairs { "background", "plain" } do out[name] = colour(name, given[name]) end
@@ -148,7 +169,8 @@ local function settings_of(given)
   end
   read_sides(given.sides, out)
   read_markers(given.markers, out)
-  read_camera(given.camera, out)
+  read_missing(given.missing, out)
+  read_camera(given.camera, out, drawing)
   read_outline(given, out)
   return out
 end
@@ -237,7 +259,7 @@ function view.draw(model, given)
   local kind = other(model)
   if kind then return kind.draw(model, given, title_of(model, given), texts_of(model)) end
   if given.plot then return draw_plot(model, given) end
-  local settings = settings_of(given)
+  local settings = settings_of(given, true)
   settings.title = title_of(model, given)
   check_columns(model.tissue, settings)
   return core.draw(model.tissue, settings, texts_of(model))
@@ -280,7 +302,7 @@ tissue:cell { auxin = function(c) return c:uniform(0, 1) end }
 ]]
 
 local function draw_tissue(tissue, given)
-  local settings = settings_of(given)
+  local settings = settings_of(given, true)
   settings.title = title_of(nil, given)
   check_columns(tissue, settings)
   return core.draw(tissue, settings, texts_of())

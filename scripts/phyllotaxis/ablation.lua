@@ -1,6 +1,7 @@
 --- Laser ablation of cells where a primordium is about to start.
--- WHAT    the next primordium is displaced: it starts beside the cells that are gone, or elsewhere.
--- HOW     transport_apex; when auxin outside primordia comes near the threshold somewhere, the cells there are removed.
+-- WHAT    the next primordium is displaced: it starts beside the cells that are dead, or elsewhere.
+-- HOW     transport_apex; when auxin outside primordia comes near the threshold somewhere, the cells there die: they stay, black in
+--         the pictures, and grow with the apex, but make, carry and divide nothing.
 -- TRY     count=0 (the control)   after=12   count=9
 -- SOURCE  R. S. Smith, PhD thesis, University of Calgary 2007, section 5.5.3, fig. 5.13
 local tunica = require "tunica"
@@ -9,15 +10,19 @@ local shoot = require "parts.shoot"
 local P = tunica.params(shoot.with({}, {
   after = { 4, "from when on a primordium about to start is looked for", unit = "time", min = 0 },
   incipient = { 0.6, "auxin outside primordia at which it is found, as a share of the threshold", min = 0, max = 1 },
-  count = { 5, "how many cells are removed there", min = 0, max = 1000 },
+  count = { 5, "how many cells are killed there", min = 0, max = 1000 },
 }))
 
 if P.count ~= math.floor(P.count) then error("count must be a whole number, came " .. P.count, 0) end
 local my = shoot.apex(P)
+my.tissue:cell { living = 1 }
+my.mortal, my.stop = true, P.after + 4
 local model = shoot.model(my)
-shoot.report(my)
-
 local found = {}  -- the place, and how many primordia there were
+shoot.report(my, nil, {
+  colour = function(c) return c.living > 0 and c.auxin or nil end, legend = "auxin", missing = { "black", title = "ablated" },
+  camera = function() return shoot.facing(my, found.angle or 90) end,
+})
 
 --- The cell with the most auxin outside primordia, in the peripheral zone.
 local function incipient()
@@ -36,8 +41,8 @@ model:every(P.step, function(t)
   found.angle, found.a = my.apex:closest(cell.x, cell.y, cell.z)
   found.time, found.before = t, #my.primordia
   if P.count > 0 then
-    for _, c in ipairs(my.tissue:near { { cell.x, cell.y, cell.z }, count = P.count }) do c:remove() end
-    my.tissue:differentiate { on = my.surface }
+    if P.count >= #my.tissue then error(string.format("count = %d would kill all of the %d cells", P.count, #my.tissue), 0) end
+    for _, c in ipairs(my.tissue:near { { cell.x, cell.y, cell.z }, count = P.count }) do c.living, c.auxin, c.pin = 0, 0, 0 end
   end
 end)
 

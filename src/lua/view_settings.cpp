@@ -188,6 +188,8 @@ ViewSettings read_view_settings(lua_State* L, Tissue& tissue, int table) {
   s.min = reader.number("min");
   s.max = reader.number("max");
   s.palette = read_palette(reader).value_or(palette("viridis"));
+  if (const auto colour = reader.text("missing")) s.palette.missing = parse_colour(*colour);
+  s.missing_title = reader.text("missing_title").value_or(s.missing_title);
   if (const auto colour = reader.text("plain")) s.plain = parse_colour(*colour);
   read_sides(reader, tissue, s);
   if (const auto colour = reader.text("outline")) s.outline = parse_colour(*colour);

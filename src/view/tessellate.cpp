@@ -182,11 +182,13 @@ class Tessellator {
   }
 
   void add_marker(const Marker& marker) {
-    const Pixel at = projector_(marker.at);
+    const double r = marker.size / 2;
+    // It faces the viewer, and the surface may not: it is held before it, so that a surface up to 70 degrees aslant
+    // hides none of it.
+    const Pixel at = projector_(marker.at + 3 * r / projector_.scale() * projector_.towards_viewer(marker.at));
     const auto point = [&](double x, double y) {
       return Pixel{static_cast<float>(at.x + x), static_cast<float>(at.y + y), at.depth};
     };
-    const double r = marker.size / 2;
     const auto stroke = [&](double x0, double y0, double x1, double y1) {
       add_segment(point(x0, y0), point(x1, y1), marker.colour, static_cast<float>(std::max(1.5, 0.28 * r)),
                   marker_lift);

@@ -64,7 +64,7 @@ void add_legend(const ViewSettings& s, const Paint& paint, Scene& scene) {
   if (!paint.values.empty()) {
     scene.bars.push_back({s.palette.colours, paint.min, paint.max, title_of(s.colour)});
     if (std::any_of(paint.values.begin(), paint.values.end(), [](double v) { return std::isnan(v); }))
-      scene.keys.push_back({s.palette.missing, "no value"});
+      scene.keys.push_back({s.palette.missing, s.missing_title});
   }
   if (!paint.sides.empty()) {
     const std::string title = title_of(s.sides);

@@ -28,6 +28,7 @@ struct ViewSettings {
   Field colour;                    ///< of cells. NaN is shown in the palette's own colour for it
   std::optional<double> min, max;  ///< ends of the colour scale; else those of the values (0 if they start near it)
   Palette palette = tunica::palette("viridis");
+  std::string missing_title = "no value";  ///< what the legend calls cells whose colour is NaN
   Colour plain{.87f, .92f, .82f, 1};  ///< of cells when there is no `colour`
 
   Field sides;                      ///< of sides: bands along walls, inside the cell they belong to

@@ -44,6 +44,18 @@ assert(bytes_of { markers = {} } == bytes_of {})
 bytes_of { colour = "auxin", palette = { "white", "#ff0000" }, range = { 0, 2 }, transparent = true, outline = false,
   title = "t", legend = false, camera = { zoom = 2, centre = { 1, 1 }, perspective = true } }
 
+-- Cells without a value in a colour and by a name of one's own; a camera that is asked for at each picture.
+local function some(c) return c.auxin > 2 and c.auxin or nil end
+local grey = bytes_of { colour = some }
+assert(grey ~= bytes_of { colour = some, missing = "black" })
+assert(grey ~= bytes_of { colour = some, missing = { title = "dead" } })
+assert(bytes_of { colour = some, missing = "black" } == bytes_of { colour = some, missing = { "black", title = "no value" } })
+local zoom = 1
+local function camera() return { zoom = zoom } end
+assert(bytes_of { camera = camera } == bytes_of { camera = { zoom = 1 } })
+zoom = 2
+assert(bytes_of { camera = camera } == bytes_of { camera = { zoom = 2 } })
+
 local dome = tunica.cylinder { 8, 5 }
 dome:picture { path, size = 120, wireframe = true,
   place = function(c) return math.cos(c.column * math.pi / 4), math.sin(c.column * math.pi / 4), -c.row end }
@@ -67,6 +79,11 @@ for _, wrong in ipairs {
   { "bars", { bars = true } },
   { "each a cell", { markers = { { 1 } } } },
   { "camera has no option", { camera = { form = 1 } } },
+  { "camera has no option", { camera = function() return { form = 1 } end } },
+  { "camera: the function must return a table", { camera = function() end } },
+  { "did you mean 'black'", { missing = "blak" } },
+  { "missing has no option", { missing = { "black", name = "dead" } } },
+  { "missing: write", { missing = {} } },
 } do
   local options = wrong[2]
   options[1] = path

@@ -113,6 +113,17 @@ TEST(Render, TheSameSceneGivesTheSamePixelsInAnyThread) {
   EXPECT_EQ(first.rgba, other.rgba);
 }
 
+TEST(Render, MarkersOnASlopeAreWhole) {
+  Scene scene = small_scene();
+  // A plane that rises by 2 for each unit to the right, towards the viewer: half of an upright disc would be inside it.
+  scene.add(scene.polygons, std::vector<Vec3>{{-8, -8, -16}, {8, -8, 16}, {8, 8, 16}, {-8, 8, -16}}, red);
+  scene.markers.push_back({{1, 2, 2}, Marker::Shape::disc, blue, 20});
+  const Picture p = render(scene);
+  double blue_area = 0;
+  for (size_t i = 0; i < p.rgba.size(); i += 4) blue_area += p.rgba[i] < 128 && p.rgba[i + 2] > 128;
+  EXPECT_NEAR(blue_area, M_PI * 100, 10);
+}
+
 TEST(Render, LargePicturesAreOnePieceAcrossTiles) {
   Scene scene = small_scene(2100, 1300);
   scene.add(scene.polygons, box(-9, -9, 9, 9), red);

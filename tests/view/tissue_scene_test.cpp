@@ -78,11 +78,15 @@ TEST(TissueScene, PicturesShowTheColoursOfTheLegend) {
 TEST(TissueScene, CellsWithoutValueAreShownAsSuch) {
   Tissue tissue = hexagons(3, 3);
   numbered(tissue).values[4] = NAN;
-  const ViewSettings s = showing("auxin");
-  const Scene scene = scene_of(tissue, s);
+  ViewSettings s = showing("auxin");
+  Scene scene = scene_of(tissue, s);
   EXPECT_EQ(scene.polygons[4].fill, s.palette.missing);
   ASSERT_EQ(scene.keys.size(), 1u);
   EXPECT_EQ(scene.keys[0].text, "no value");
+  s.palette.missing = parse_colour("black"), s.missing_title = "dead";
+  scene = scene_of(tissue, s);
+  EXPECT_EQ(scene.polygons[4].fill, parse_colour("black"));
+  EXPECT_EQ(scene.keys[0].text, "dead");
 }
 
 TEST(TissueScene, BandsLieInTheirCellAlongTheirWall) {

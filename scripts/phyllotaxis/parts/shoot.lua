@@ -142,15 +142,20 @@ end
 
 -- The model --------------------------------------------------------------------------------------------------------------
 
---- The model of the apex `my`: equations 5.7 to 5.11, growth, division, and the start of primordia.
+--- The model of the apex `my`: equations 5.7 to 5.11, growth, division, and the start of primordia. With my.mortal its cells have a
+-- column `living`: those where it is 0 stay as they are and grow with the apex, but make, carry and divide nothing.
 function shoot.model(my)
   local P, tissue, surface, apex = my.P, my.tissue, my.surface, my.apex
   local primordia, border, power = my.primordia, my.border, P.power  -- a number in the rule: squares are cheaper than powers
-  local model = tunica.model { tissue = tissue, params = P, dt = P.dt, method = P.method, stop = 40 }
+  local mortal = my.mortal
+  local model = tunica.model { tissue = tissue, params = P, dt = P.dt, method = P.method, stop = my.stop or 40 }
 
   -- What is above `most` has left already for all that looks at it, and leaves at the rate `drain`.
   model:derive(function(c) c.level = tunica.min(c.auxin, P.most) end)
-  model:derive(function(c) c.pull = P.b ^ tunica.max(c.level, P.most * c.closeness) end)  -- (5.11)
+  model:derive(function(c)  -- (5.11)
+    local pull = P.b ^ tunica.max(c.level, P.most * c.closeness)
+    c.pull = mortal and c.living * pull or pull
+  end)
   -- (5.7); a cell that has lost its last neighbour allocates nothing
   model:derive(function(c) c.share = c.pin / tunica.max(1e-9, c:sum(function(n, w) return w.length * n.pull end)) end)
   model:derive("side", function(s) s.pin = s.cell.share * s.neighbour.pull end)  -- for pictures: PIN1 by length of wall
@@ -159,24 +164,29 @@ function shoot.model(my)
     local wider = tunica.exp(P.widening * t)
     local in_zone = P.rho_proximal + tunica.where(tunica.below(c.a, (P.central + P.peripheral) * wider), P.rho_peripheral, 0)
     local made = tunica.where(tunica.below(c.a, P.central * wider), 0, in_zone + P.rho_primordium * c.closeness)  -- (5.10)
+    if mortal then made = c.living * made end
     local leaves = P.drain * tunica.max(0, c.auxin - P.most)
     d.auxin = made / (1 + P.kI * c.auxin) - P.mu * c.auxin - leaves
     d.drained = leaves * c.area
   end)
   if not P.steady_pin then
     model:rate(function(c, d)  -- (5.8)
-      d.pin = (P.rho_pin0 + P.rho_pin * c.auxin) / (1 + P.kP * c.pin) - P.mu_pin * c.pin
+      local made = (P.rho_pin0 + P.rho_pin * c.auxin) / (1 + P.kP * c.pin)
+      d.pin = (mortal and c.living * made or made) - P.mu_pin * c.pin
     end)
   end
   model:flux("auxin", function(w, a, b)  -- (5.9)
     local into_b = a.level ^ power / (1 + P.kT * b.level ^ power)
     local into_a = b.level ^ power / (1 + P.kT * a.level ^ power)
-    return w.length * (P.D * (a.level - b.level) + P.T * (a.share * b.pull * into_b - b.share * a.pull * into_a))
+    local carried = w.length * (P.D * (a.level - b.level) + P.T * (a.share * b.pull * into_b - b.share * a.pull * into_a))
+    return mortal and a.living * b.living * carried or carried
   end)
 
+  local function divides(c) return c.living > 0 end
   model:every(P.step, function()
     tissue:grow { on = surface, time = P.step }
-    tissue:divide { above = P.max_area, variation = P.variation, on = surface, gap = P.gap * math.sqrt(P.max_area), pinch = P.pinch }
+    tissue:divide { above = P.max_area, where = mortal and tissue:min "living" == 0 and divides or nil, variation = P.variation, on = surface,
+      gap = P.gap * math.sqrt(P.max_area), pinch = P.pinch }
     tissue:remove { on = apex, beyond = border }
     initiate { P = P, tissue = tissue, surface = surface, apex = apex, primordia = primordia }
   end)
@@ -245,7 +255,7 @@ end
 local function pin_outside(my)
   local sum, n = 0, 0
   for c in my.tissue:cells() do
-    if c.primordium == 0 and c.a >= my.P.central then sum, n = sum + c.pin, n + 1 end
+    if c.primordium == 0 and c.a >= my.P.central and not (my.mortal and c.living == 0) then sum, n = sum + c.pin, n + 1 end
   end
   return n > 0 and sum / n or 0
 end
@@ -277,7 +287,7 @@ local function divergence_plot(my)
     for i, angle in ipairs(angles) do angles[i] = 360 - angle end
   end
   if #angles > 0 then series[1] = { x = numbers, y = angles, title = "this run", style = "both" } end
-  local name = my.P.initial == 0 and "table 5.1" or my.variant and published[my.variant] and my.variant
+  local name = my.P.initial == 0 and my.P.rho_pin0 > 0 and "table 5.1" or my.variant and published[my.variant] and my.variant
   if name and my.P.jugacy == 1 then
     local x = {}
     for i in ipairs(published[name]) do x[i] = math.max(1, my.P.initial) + i end
@@ -293,8 +303,16 @@ local function words(angles)
   return table.concat(text, " ")
 end
 
---- Reports and pictures that all of these models have.
-function shoot.report(my, most)
+--- A camera that looks down upon the flank at an angle around the axis.
+function shoot.facing(my, angle)
+  local x, _, z = my.apex:position(angle, my.P.central + my.P.peripheral)
+  local far = math.sqrt(x * x + z * z)
+  return { direction = { -x / far, -0.45, -z / far }, up = { 0, 1, 0 } }
+end
+
+--- Reports and pictures that all of these models have. `most`: of the angles; `looks`: options of the pictures of cells that differ,
+-- and `camera` of the one from the side.
+function shoot.report(my, most, looks)
   local P, list = my.P, my.primordia
   my.model:report {
     primordia = function() return #list - P.initial end,
@@ -308,7 +326,7 @@ function shoot.report(my, most)
     end,
     pin_outside = function() return pin_outside(my) end,
     cells_around = function() return cells_around(my) end,
-    cells = function() return #my.tissue end,
+    cells = function() return my.mortal and my.tissue:sum "living" or #my.tissue end,
     note = function()
       if #list > P.initial then return "" end
       local most = 0
@@ -321,9 +339,13 @@ function shoot.report(my, most)
   }
   local shown = { colour = "auxin", palette = "greens", range = { 0, 12 }, sides = { "pin", colour = "#e02020" }, light = true,
     every = 0.5, size = { 820, 760 } }
-  for name, direction in pairs { top = { 0, -1, 0 }, side = { 0, -0.45, -1 } } do
-    local view = { name = name, camera = { direction = direction, up = name == "top" and { 0, 0, -1 } or { 0, 1, 0 } } }
+  for key, value in pairs(looks or {}) do shown[key] = value end
+  local cameras = { top = { direction = { 0, -1, 0 }, up = { 0, 0, -1 } }, side = shown.camera or
+    { direction = { 0, -0.45, -1 }, up = { 0, 1, 0 } } }
+  for name, camera in pairs(cameras) do
+    local view = { name = name }
     for key, value in pairs(shown) do view[key] = value end
+    view.camera = camera
     my.model:view(view)
   end
   my.model:view { name = "divergence", plot = function() return divergence_plot(my) end }
