@@ -230,6 +230,7 @@ op { name = "phyllotaxis:view", kind = "named", source = "thesis figs. 4.2, 4.6,
     if given.name and not given.name:match "^[%w_-]+$" then
       fail("name of a view: letters, digits, - and _ only (it names a folder), came '%s'", given.name)
     end
+    view.note_place(given)
     table.insert(phyllotaxis.inside[model].views, given)
   end }
 

@@ -104,8 +104,10 @@ local function view_name(views, i)
   return views[i].name or (#views > 1 and tostring(i) or nil)
 end
 
+--- An error of the view's functions is the script's, one of writing the picture is not.
 local function draw(self, view, path)
-  with_files(self, require("tunica.view").save, self.model, view, path)
+  local png = require("tunica.view").draw(self.model, view)
+  with_files(self, core.write_atomic, path, png)
 end
 
 --- A picture that cannot be drawn (no OSMesa) costs the pictures, not the run.

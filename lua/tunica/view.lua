@@ -11,6 +11,11 @@ local view = {}
 -- draw = function(model, given, title, texts) that returns bytes of a PNG, width, height }.
 view.others = {}
 
+local declared_at = setmetatable({}, { __mode = "k" })
+
+--- Notes that a view was declared by the script's present line.
+function view.note_place(given) declared_at[given] = registry.where() end
+
 local function other(model)
   for _, kind in ipairs(view.others) do
     if kind.is(model) then return kind end
@@ -216,6 +221,7 @@ model:view { colour = "auxin", palette = "greens", every = 1 }
     if given.name and not given.name:match "^[%w_-]+$" then
       fail("name of a view: letters, digits, - and _ only (it names a folder), came '%s'", given.name)
     end
+    view.note_place(given)
     model:add_view(given)
   end }
 
@@ -254,8 +260,7 @@ local function draw_plot(model, given)
   return bytes
 end
 
---- The picture of a model by one of its views: bytes of a PNG, width, height.
-function view.draw(model, given)
+local function draw(model, given)
   local kind = other(model)
   if kind then return kind.draw(model, given, title_of(model, given), texts_of(model)) end
   if given.plot then return draw_plot(model, given) end
@@ -263,6 +268,26 @@ function view.draw(model, given)
   settings.title = title_of(model, given)
   check_columns(model.tissue, settings)
   return core.draw(model.tissue, settings, texts_of(model))
+end
+
+--- What is said of an error from a view: with the line that declared the view, unless it names one of the script already.
+local function with_place(given, message)
+  local where = declared_at[given]
+  if core.cancelled() or not where then return message end
+  if type(message) ~= "string" then
+    return string.format("%s: a function of this view raised an error that is not text but %s", where, core.describe(message))
+  end
+  return message:find "^[^\n]-:%d+: " and message or where .. ": " .. message
+end
+
+--- The picture of a model by one of its views: bytes of a PNG, width, height. It changes nothing, so random numbers that functions of
+-- the view draw are those that come next.
+function view.draw(model, given)
+  local random = core.random_state()
+  local ok, png, width, height = pcall(draw, model, given)
+  core.random_state(random)
+  if not ok then error(with_place(given, png), 0) end
+  return png, width, height
 end
 
 --- The same, into a file, which is replaced as one act.

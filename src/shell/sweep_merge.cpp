@@ -9,6 +9,7 @@
 #include "shell/exit_codes.h"
 #include "shell/options.h"
 #include "shell/sweep.h"
+#include "shell/sweep_notes.h"
 #include "shell/sweep_plan.h"
 #include "shell/terminal.h"
 #include "sweep/table.h"
@@ -47,6 +48,7 @@ size_t take_over(sweep::Table& whole, const sweep::Table& part) {
 /// Takes over one part: what it is of, if the whole does not know yet, and its rows. Returns how many runs.
 size_t merge_part(sweep::Table& whole, const std::string& path) {
   const sweep::Table part(path, sweep::Table::Mode::read);
+  check_notes(part);
   const auto here = whole.note("identity"), there = part.note("identity");
   if (!there) throw UsageError{fmt::format("'{}' was stopped before its first run", part.path())};
   if (here)
@@ -64,6 +66,7 @@ size_t merge_part(sweep::Table& whole, const std::string& path) {
 /// All parts or none: what was there before a part that does not fit stays as it was.
 std::vector<size_t> merge_all(const std::string& out, const std::vector<std::string>& parts) {
   sweep::Table whole(out, sweep::Table::Mode::write);
+  check_notes(whole);
   try {
     std::vector<size_t> taken;
     for (const auto& part : parts) taken.push_back(merge_part(whole, part));

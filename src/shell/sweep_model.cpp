@@ -13,7 +13,6 @@
 #include "lua/guard.h"
 #include "shell/exit_codes.h"
 #include "shell/places.h"
-#include "shell/sweep_pool.h"
 #include "shell/terminal.h"
 
 namespace tunica::shell {
@@ -138,8 +137,8 @@ int SweepModel::answer(const char* function, std::optional<double> until, const 
   return numerical_failure;
 }
 
-Description SweepModel::describe(const Values& values, std::optional<double> until, double seconds) {
-  Pool pool(1, {.seconds = seconds}, [&](size_t, int descriptor) {
+Description SweepModel::describe(const Values& values, std::optional<double> until, const RunLimits& limits) {
+  Pool pool(1, limits, [&](size_t, int descriptor) {
     return load(values, 1) ? answer("describe", until, {}, descriptor) : answer_error(descriptor);
   });
   pool.start(0);
@@ -148,7 +147,9 @@ Description SweepModel::describe(const Values& values, std::optional<double> unt
     const auto outcome = pool.wait(1);
     if (!outcome) continue;
     if (outcome->status == "done") return read_description(outcome->result);
-    throw UsageError{fmt::format("'{}': {}", given_, outcome->message)};
+    const bool limited = outcome->status == "memory" || outcome->status == "time";
+    throw UsageError{fmt::format("'{}': {}{}", given_, outcome->message,
+                                 limited ? ", while the script was loaded to learn its parameters" : "")};
   }
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "shell/session.h"
+#include "shell/sweep_pool.h"
 #include "sweep/range.h"
 
 namespace tunica::shell {
@@ -30,9 +31,9 @@ class SweepModel {
   /// Name by which `tunica` finds the model again.
   const std::string& given() const { return given_; }
 
-  /// Loads the model in a child, within some seconds. Errors: UsageError with what the child said; Cancelled by a
-  /// signal.
-  Description describe(const Values& values, std::optional<double> until, double seconds);
+  /// Loads the model in a child, within the limits of a run. Errors: UsageError with what the child said, or which
+  /// limit it met; Cancelled by a signal.
+  Description describe(const Values& values, std::optional<double> until, const RunLimits& limits);
   /// In a child: takes the model to its end and writes its result to the descriptor. `solution`: method, dt, tolerance;
   /// empty for the model's own. Returns an exit code.
   int run(const Values& values, const Values& solution, uint64_t seed, std::optional<double> until, int descriptor);

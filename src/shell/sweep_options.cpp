@@ -2,6 +2,7 @@
 #include "shell/sweep_options.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -191,6 +192,12 @@ std::optional<SweepOptions> read_sweep_options(int argc, char** argv) {
   check(options);
   complete(options);
   return options;
+}
+
+double megabytes_for_a_run(const SweepOptions& options) {
+  if (options.memory > 0) return options.memory;
+  const double bytes = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  return 0.8 * bytes / 1048576 / options.jobs;
 }
 
 }  // namespace tunica::shell

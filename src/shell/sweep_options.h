@@ -54,4 +54,7 @@ std::vector<uint64_t> read_seeds(const char* option, const std::string& text);
 /// UsageError.
 std::optional<SweepOptions> read_sweep_options(int argc, char** argv);
 
+/// The limit of a run's memory: --memory, or its share of four fifths of the machine's.
+double megabytes_for_a_run(const SweepOptions& options);
+
 }  // namespace tunica::shell

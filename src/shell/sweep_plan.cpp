@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "shell/places.h"
+#include "shell/sweep_notes.h"
 #include "shell/terminal.h"
 #include "shell/version.h"
 
@@ -136,7 +137,8 @@ SweepPlan make_plan(SweepModel& model, const SweepOptions& options) {
   // What the model is may depend on what is fixed; so it is loaded with that, as far as it can be told before its
   // parameters are known.
   const Values plain = plainly_fixed(options.arguments);
-  plan.about = model.describe(plain, options.until, options.time_limit);
+  const RunLimits limits{options.time_limit, megabytes_for_a_run(options)};
+  plan.about = model.describe(plain, options.until, limits);
   Values fixed;
   bool varies = false;
   try {
@@ -146,7 +148,8 @@ SweepPlan make_plan(SweepModel& model, const SweepOptions& options) {
       if (!range.varies()) fixed[range.name] = range.values[0];
     }
     // A model as it is, on many seeds, is a grid of one.
-    const bool seeds_only = !varies && options.sampling == Sampling::none && options.refine == 0 && options.seeds.size() > 1;
+    const bool seeds_only =
+        !varies && options.sampling == Sampling::none && options.refine == 0 && options.seeds.size() > 1;
     plan.samples = sweep::make_samples(plan.ranges, seeds_only ? Sampling::grid : options.sampling, options.count,
                                        options.sampling_seed);
   } catch (const Error& error) {
@@ -159,7 +162,7 @@ SweepPlan make_plan(SweepModel& model, const SweepOptions& options) {
     throw UsageError{varies ? "how are the ranges to be sampled? Say --grid, --random N, --sobol N or --refine N"
                             : "nothing varies: give a parameter a range (D=3..5) or a list (D=3,4,5), and say --grid, "
                               "--random N, --sobol N or --refine N; or several --seeds"};
-  if (fixed.size() > plain.size()) plan.about = model.describe(fixed, options.until, options.time_limit);
+  if (fixed.size() > plain.size()) plan.about = model.describe(fixed, options.until, limits);
   return plan;
 }
 
@@ -199,7 +202,9 @@ std::unique_ptr<sweep::Table> open_table(const std::string& path) {
       free = lock_file(path + ".lock");
     }
     if (!free) throw UsageError{fmt::format("'{}' is in use: another sweep writes to it", path)};
-    return std::make_unique<sweep::Table>(path, sweep::Table::Mode::write);
+    auto table = std::make_unique<sweep::Table>(path, sweep::Table::Mode::write);
+    check_notes(*table);
+    return table;
   } catch (const Error& error) {
     throw UsageError{error.what()};
   }

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "shell/options.h"
+#include "shell/sweep_notes.h"
 
 namespace tunica::shell {
 
@@ -51,6 +53,7 @@ std::string as_text(const json& value) {
 
 SweepView::SweepView(const std::string& path) {
   const sweep::Table table(path, sweep::Table::Mode::read);
+  check_notes(table);
   const auto note = [&](const char* name) {
     const auto text = table.note(name);
     if (!text) fail("'{}' is of a sweep that was stopped before its first run", path);
@@ -69,11 +72,16 @@ SweepView::SweepView(const std::string& path) {
   runs = table.runs();
   if (!has_score()) return;
   session_ = std::make_unique<Session>(1);
-  Scorer scorer(*session_, settings.at("score"), about);
+  std::unique_ptr<Scorer> scorer;
+  try {
+    scorer = std::make_unique<Scorer>(*session_, settings.at("score"), about);
+  } catch (const UsageError& error) {
+    table.damaged(fmt::format("the score that it notes cannot be read ({})", error.message));
+  }
   std::map<int64_t, Values> values_of;
   for (const auto& sample : samples) values_of[sample.sample] = values(sample);
   for (const auto& run : runs)
-    if (run.status == "done") scores[{run.sample, run.seed}] = scorer(run.result, values_of[run.sample]);
+    if (run.status == "done") scores[{run.sample, run.seed}] = (*scorer)(run.result, values_of[run.sample]);
 }
 
 Values SweepView::values(const sweep::SampleRow& sample) const {

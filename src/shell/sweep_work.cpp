@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shell/sweep_work.h"
 
-#include <unistd.h>
-
 #include "base/error.h"
 #include "shell/terminal.h"
 
@@ -15,12 +13,6 @@ using Clock = std::chrono::steady_clock;
 constexpr double longest_uncommitted = 0.5;  // seconds of finished runs that a power cut or kill -9 may cost
 
 double since(Clock::time_point begun) { return std::chrono::duration<double>(Clock::now() - begun).count(); }
-
-/// 0.8 of the machine's memory, shared by the processes, in megabytes.
-double default_memory(int jobs) {
-  const double bytes = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  return 0.8 * bytes / 1048576 / jobs;
-}
 
 std::string clock(double seconds) {
   const auto s = static_cast<int64_t>(seconds + 0.5);
@@ -114,8 +106,7 @@ bool SweepWork::run(const std::vector<Task>& all) {
     if (!known_.contains({task.sample, task.seed})) tasks.push_back(task);
   passed_over_ += all.size() - tasks.size();
   if (tasks.empty()) return true;
-  const double memory = options_.memory > 0 ? options_.memory : default_memory(options_.jobs);
-  Pool pool(options_.jobs, {options_.time_limit, memory}, [&](size_t i, int descriptor) {
+  Pool pool(options_.jobs, {options_.time_limit, megabytes_for_a_run(options_)}, [&](size_t i, int descriptor) {
     const auto& sample = samples_.at(tasks[i].sample).parameters;
     return model_.run(plan_.values(sample), plan_.solution(sample), tasks[i].seed, options_.until, descriptor);
   });

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "sweep/table.h"
 
+#include <fcntl.h>
 #include <sqlite3.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -48,6 +52,7 @@ class Statement {
   }
   /// SQLITE_ROW, SQLITE_DONE, or an error.
   int step() { return good_ ? sqlite3_step(statement_) : SQLITE_ERROR; }
+  bool good() const { return good_; }
   int64_t integer(int i) { return sqlite3_column_int64(statement_, i); }
   double number(int i) { return sqlite3_column_double(statement_, i); }
   std::string text(int i) {
@@ -61,11 +66,41 @@ class Statement {
   int bound_ = 0;
 };
 
+/// What there is in place of a file that could be opened; SQLite would say too little of it, or wait for ever (a pipe).
+void check_path(const std::string& path, bool must_exist) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) {
+    if (must_exist) fail("there is no file '{}'", path);
+    return;
+  }
+  if (std::filesystem::is_directory(status)) fail("'{}' is a directory; expected the file of a sweep", path);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    fail("'{}' is no ordinary file; expected the file of a sweep", path);
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) fail("'{}' cannot be read: {}", path, std::strerror(errno));
+  close(file);
+}
+
+std::string not_a_database(const std::string& path) {
+  return fmt::format("'{}' is not the file of a sweep: expected an SQLite database, and it is something else", path);
+}
+
+// Each finds the first row that is not as this class writes it. `case` stops at the first thing that is wrong, since
+// what follows is an error for SQLite then.
+constexpr const char* bad_sample = R"(SELECT sample FROM samples WHERE CASE WHEN NOT json_valid(parameters) THEN 1
+  WHEN json_type(parameters) != 'array' THEN 1
+  ELSE json_array_length(parameters) != (SELECT json_array_length(parameters) FROM samples ORDER BY sample LIMIT 1)
+    OR EXISTS (SELECT 1 FROM json_each(parameters) WHERE type != 'text') END ORDER BY sample LIMIT 1)";
+constexpr const char* bad_run = R"(SELECT sample, seed FROM runs WHERE CASE WHEN status != 'done' THEN 0
+  WHEN NOT json_valid(result) THEN 1 ELSE json_type(result) != 'object' END ORDER BY sample, seed LIMIT 1)";
+constexpr const char* lost_run = R"(SELECT sample, seed FROM runs WHERE sample NOT IN (SELECT sample FROM samples)
+  ORDER BY sample, seed LIMIT 1)";
+
 }  // namespace
 
 Table::Table(const std::string& path, Mode mode) : path_(path) {
-  std::error_code error;
-  if (mode == Mode::read && !std::filesystem::is_regular_file(path, error)) fail("there is no file '{}'", path);
+  check_path(path, mode == Mode::read);
   try {
     // A reader may write too, if the file lets it: after kill -9 what was half written is first to be taken back.
     const int flags = SQLITE_OPEN_READWRITE | (mode == Mode::write ? SQLITE_OPEN_CREATE : 0);
@@ -76,20 +111,51 @@ Table::Table(const std::string& path, Mode mode) : path_(path) {
     Statement tables(db_, "SELECT count(*) FROM sqlite_master");
     if (tables.step() != SQLITE_ROW) refuse();
     if (tables.integer(0) == 0) {
-      if (mode == Mode::read) fail("'{}' is empty", path);
+      // SQLite takes a file of one byte for an empty one, and would write over it.
+      std::error_code error;
+      if (const auto size = std::filesystem::file_size(path, error); !error && size > 0 && size < 512)
+        fail("{}", not_a_database(path));
+      if (mode == Mode::read) fail("'{}' is empty; expected the file of a sweep", path);
       begin();
       execute(layout);
       set_note("format", format);
       return;
     }
-    Statement ours(db_, "SELECT count(*) FROM sqlite_master WHERE name IN ('notes', 'samples', 'runs')");
-    if (ours.step() != SQLITE_ROW || ours.integer(0) != 3) fail("'{}' is a database of something else", path);
-    if (note("format") != format)
-      fail("'{}' has the format {}; this version reads {}", path, note("format").value_or("?"), format);
+    check();
   } catch (...) {
     sqlite3_close(db_);
     throw;
   }
+}
+
+void Table::check() const {
+  Statement whole(db_, "PRAGMA quick_check(1)");
+  if (whole.step() != SQLITE_ROW) refuse();
+  // Several lines, the last of which says where.
+  if (const std::string found = whole.text(0); found != "ok")
+    damaged(fmt::format("cut off, or overwritten in part ({})", found.substr(found.rfind('\n') + 1)));
+  if (!Statement(db_, "SELECT name, value FROM notes").good() ||
+      !Statement(db_, "SELECT sample, origin, parameters FROM samples").good() ||
+      !Statement(db_, "SELECT sample, seed, fresh, status, result, message, log, seconds, megabytes FROM runs").good())
+    fail("'{}' is a database of something else; expected the file of a sweep, with its tables notes, samples and runs",
+         path_);
+  if (note("format") != format)
+    fail("'{}' has the format {}; this version reads {}", path_, note("format").value_or("?"), format);
+  const auto first = [&](const char* query, const char* what) {
+    Statement found(db_, query);
+    const int state = found.step();
+    if (state == SQLITE_ROW)
+      damaged(fmt::format(fmt::runtime(what), found.integer(0), static_cast<uint64_t>(found.integer(1))));
+    if (state != SQLITE_DONE) refuse();
+  };
+  first(bad_sample, "the parameters of sample {} are no list of texts as long as that of the others");
+  first(bad_run, "the result of sample {}, seed {} is none");
+  first(lost_run, "it has runs of sample {}, and no such sample");
+}
+
+void Table::damaged(const std::string& why) const {
+  fail("'{}' is damaged: {}. It was left as it is; a copy of it may be whole, and .recover of sqlite3 may save rows",
+       path_, why);
 }
 
 Table::~Table() {
@@ -100,7 +166,10 @@ Table::~Table() {
 void Table::refuse() const {
   const int code = db_ ? sqlite3_errcode(db_) : SQLITE_NOMEM;
   const std::string reason = db_ ? sqlite3_errmsg(db_) : "out of memory";
-  if (code == SQLITE_NOTADB) fail("'{}' is not the file of a sweep: {}", path_, reason);
+  if (code == SQLITE_NOTADB) fail("{}", not_a_database(path_));
+  if (code == SQLITE_CORRUPT) damaged("cut off, or overwritten in part");
+  if (code == SQLITE_CANTOPEN && sqlite3_system_errno(db_) != 0)
+    fail("'{}' cannot be opened: {}", path_, std::strerror(sqlite3_system_errno(db_)));
   fail("'{}': {}", path_, reason);
 }
 

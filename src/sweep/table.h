@@ -37,7 +37,8 @@ struct SampleRow {
 class Table {
  public:
   enum class Mode { read, write };
-  /// Opens a file; `write` makes it if it is missing. Errors: missing, not a sweep, of a later format.
+  /// Opens a file; `write` makes it if it is missing. It is looked through first, so that damage is found before
+  /// anything is done on its account. Errors: missing, unreadable, not a sweep, of a later format, damaged.
   Table(const std::string& path, Mode mode);
   ~Table();
   Table(const Table&) = delete;
@@ -57,9 +58,12 @@ class Table {
   std::vector<RunRow> runs() const;
   size_t count_runs() const;
   const std::string& path() const { return path_; }
+  /// Error: what a reader found wrong with the contents.
+  [[noreturn]] void damaged(const std::string& why) const;
 
  private:
   void begin();
+  void check() const;
   void execute(const char* text) const;
   [[noreturn]] void refuse() const;
 

@@ -41,7 +41,7 @@ done
 
 # What is wrong is said, and where a step is too long too.
 code 1 "$tunica" phyllotaxis/ablation count=1000 --until 8 --no-frames -q --out bad
-says err.txt "last cell"
+says err.txt "would kill all of the"
 code 1 "$tunica" phyllotaxis/auxin_application reach=0.01 --until 8 --no-frames -q --out bad2
 says err.txt "the place is off the tissue"
 code 1 "$tunica" phyllotaxis/auxin_application a=50 --until 8 --no-frames -q --out bad3

@@ -59,12 +59,21 @@ function outputs.plain(value, depth)
   return copy
 end
 
---- All reports of the model now: list of { name =, value = } in their order.
-function outputs.reports(model)
+local function reports_of(model)
   local list = {}
   for i, report in ipairs(model.reports or {}) do
     list[i] = { name = report.name, value = outputs.plain(report.fn()) }
   end
+  return list
+end
+
+--- All reports of the model now: list of { name =, value = } in their order. Random numbers that they draw are those that come next
+-- and come again afterwards: how often a run reports does not change it.
+function outputs.reports(model)
+  local random = core.random_state()
+  local ok, list = pcall(reports_of, model)
+  core.random_state(random)
+  if not ok then error(list, 0) end
   return list
 end
 

@@ -108,18 +108,20 @@ local function run_model(model, until_time, solution)
   end
   list[1] = { every = model.report_every, count = 0, write = row }
   list[2] = solution and require("tunica.chart.look").begin(model, solution, goal)
-  local _ = model.about  -- binds the rules
+  local _, arrived = model.about, false  -- the former binds the rules
   while true do
     outputs.emit(list, model.time)
-    if model.time >= goal or most and model.finished then break end
-    model:advance { to = goal, pause = outputs.next_time(list) }
+    if arrived or model.time >= goal or most and model.finished then break end
+    -- The time may be less than the goal by a rounding error when all steps are done.
+    arrived = model:advance { to = goal, pause = outputs.next_time(list) } == "done"
   end
   if last ~= model.time then row() end
   local course = list[2] and require("tunica.chart.look").finish(list[2])
+  local reports = outputs.reports(model)  -- before the hash, as in a batch run: they may change what functions keep
   local size, unit = outputs.size(model)
   local result = { time = model.time, steps = model.steps, [unit] = size, hash = model:hash(), report = {},
     course = course or nil, series = model.report_every and summary(series) or nil }
-  for _, entry in ipairs(outputs.reports(model)) do result.report[entry.name] = entry.value end
+  for _, entry in ipairs(reports) do result.report[entry.name] = entry.value end
   return result
 end
 
