@@ -8,7 +8,7 @@ local op, fail = registry.op, registry.fail
 local view = {}
 
 --- Models without a tissue, which have pictures of their own: { is = function(model), check = function(model, given),
--- draw = function(model, given, title, texts) that returns bytes of a PNG, width, height }.
+-- draw = function(model, given, title, texts) that returns what view.draw does }.
 view.others = {}
 
 local declared_at = setmetatable({}, { __mode = "k" })
@@ -280,14 +280,15 @@ local function with_place(given, message)
   return message:find "^[^\n]-:%d+: " and message or where .. ": " .. message
 end
 
---- The picture of a model by one of its views: bytes of a PNG, width, height. It changes nothing, so random numbers that functions of
+--- The picture of a model by one of its views: bytes of a PNG, width, height, what is around its content (for core.terminal_picture;
+-- nil for plots). It changes nothing, so random numbers that functions of
 -- the view draw are those that come next.
 function view.draw(model, given)
   local random = core.random_state()
-  local ok, png, width, height = pcall(draw, model, given)
+  local ok, png, width, height, around = pcall(draw, model, given)
   core.random_state(random)
   if not ok then error(with_place(given, png), 0) end
-  return png, width, height
+  return png, width, height, around
 end
 
 --- The same, into a file, which is replaced as one act.
@@ -348,8 +349,8 @@ op { name = "tissue:show", kind = "named", args = arguments,
     "it is written to a temporary file, whose path is printed.",
   example = setup .. [[tissue:show { colour = "auxin", size = 100 }]],
   fn = function(tissue, given)
-    local png = draw_tissue(tissue, given)
-    local text = core.terminal_picture(png)
+    local png, _, _, around = draw_tissue(tissue, given)
+    local text = core.terminal_picture(png, around)
     if text then
       io.write(text)
       io.flush()

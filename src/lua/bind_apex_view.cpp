@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "lua/bind_tissue.h"
+#include "lua/surroundings_table.h"
 #include "lua/view_settings.h"
 #include "view/apex_scene.h"
 #include "view/page.h"
@@ -160,8 +161,8 @@ int push_png(lua_State* L, const Picture& picture, const PngTexts& texts) {
   return 3;
 }
 
-/// draw_apex(data, settings [, texts]) -> bytes of a PNG, width, height. With `lattice` among the settings ("angles",
-/// "arc" or "log") the apex is drawn unrolled. Angles are in degrees.
+/// draw_apex(data, settings [, texts]) -> bytes of a PNG, width, height, what is around its content. With `lattice`
+/// among the settings ("angles", "arc" or "log") the apex is drawn unrolled. Angles are in degrees.
 int draw_apex(lua_State* L) {
   return guard(L, [&] {
     lua_settop(L, 3);
@@ -170,7 +171,10 @@ int draw_apex(lua_State* L) {
     ApexView view = read_view(L, 2);
     view.cancel = &host(L).cancel;
     const bool lattice = TableReader(L, 2).text("lattice").has_value();
-    return push_png(L, render(lattice ? scene_of_lattice(apex, view) : scene_of_apex(apex, view)), texts);
+    const Scene scene = lattice ? scene_of_lattice(apex, view) : scene_of_apex(apex, view);
+    push_png(L, render(scene), texts);
+    push_surroundings(L, surroundings_of(scene));
+    return 4;
   });
 }
 

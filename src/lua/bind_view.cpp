@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "lua/bind_tissue.h"
+#include "lua/surroundings_table.h"
 #include "lua/terminal_reply.h"
 #include "lua/view_settings.h"
 #include "view/gnuplot.h"
@@ -17,7 +18,7 @@
 namespace tunica::lua {
 namespace {
 
-/// draw(tissue, settings [, texts]) -> bytes of a PNG, width, height
+/// draw(tissue, settings [, texts]) -> bytes of a PNG, width, height, what is around its content (for terminal_picture)
 int draw(lua_State* L) {
   return guard(L, [&] {
     Tissue& tissue = tissue_at(L, 1);
@@ -25,12 +26,14 @@ int draw(lua_State* L) {
     const PngTexts texts = read_picture_texts(L, 3);
     ViewSettings settings = read_view_settings(L, tissue, 2);
     const CancelFlag* cancel = settings.cancel = &host(L).cancel;
-    const Picture picture = render(scene_of(tissue, settings));
+    const Scene scene = scene_of(tissue, settings);
+    const Picture picture = render(scene);
     const std::string png = encode_png(picture, texts, cancel);
     lua_pushlstring(L, png.data(), png.size());
     lua_pushinteger(L, picture.width);
     lua_pushinteger(L, picture.height);
-    return 3;
+    push_surroundings(L, surroundings_of(scene));
+    return 4;
   });
 }
 
@@ -153,10 +156,12 @@ std::string answer_of_terminal(lua_State* L) {
   return reply.answers;
 }
 
-/// terminal_picture(bytes of a PNG) -> the characters that show it on standard output, or nil if that cannot show one
+/// terminal_picture(bytes of a PNG [, what is around its content]) -> the characters that show it on standard output,
+/// or nil if that cannot show one
 int terminal_picture_of(lua_State* L) {
   return guard(L, [&] {
     const std::string png = check_string(L, 1, "a picture");
+    const Surroundings around = read_surroundings(L, 2);
     Terminal terminal{isatty(STDOUT_FILENO) != 0, terminal_environment(), ""};
     if (terminal.is_tty && terminal.environment["TUNICA_IMAGES"].empty() &&
         choose_protocol(terminal) == ImageProtocol::blocks)
@@ -166,7 +171,7 @@ int terminal_picture_of(lua_State* L) {
     winsize size{};
     const bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0;
     const int columns = known ? std::min<int>(size.ws_col, 100) : 80, rows = known ? std::max(4, size.ws_row - 2) : 40;
-    const std::string text = terminal_picture(decode_png(png), protocol, terminal, columns, std::min(rows, 50));
+    const std::string text = terminal_picture(decode_png(png), around, protocol, terminal, columns, std::min(rows, 50));
     lua_pushlstring(L, text.data(), text.size());
     return 1;
   });

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "view/surroundings.h"
 #include "view/tessellate.h"
 #include "view/text.h"
 
@@ -41,6 +42,18 @@ std::vector<Tick> ticks_between(double min, double max, int wanted) {
     ticks.push_back({std::clamp(value, min, max), printed(value, decimals, scientific)});
   }
   return ticks;
+}
+
+Surroundings surroundings_of(const Scene& scene) {
+  const Rect frame = Legend(scene).frame();
+  // Lines and markers reach a little out of the frame; the title and the legends are farther away.
+  const double out = 3;
+  return {{frame.x - scene.pad_left - out, frame.y - scene.pad_top - out,
+           frame.width + scene.pad_left + scene.pad_right + 2 * out,
+           frame.height + scene.pad_top + scene.pad_bottom + 2 * out},
+          scene.title,
+          scene.bars,
+          scene.keys};
 }
 
 Legend::Legend(const Scene& scene) : scene_(scene), ink_(ink_for(scene.background)) {

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "view/png.h"
+#include "view/terminal_parts.h"
 
 namespace tunica {
 
@@ -66,16 +67,6 @@ ChafaCanvasMode colours_of(const Terminal& terminal) {
   return term == "linux" ? CHAFA_CANVAS_MODE_INDEXED_16_8 : CHAFA_CANVAS_MODE_INDEXED_16;
 }
 
-bool speaks_utf8(const Terminal& terminal) {
-  for (const char* name : {"LC_ALL", "LC_CTYPE", "LANG"}) {
-    std::string value = value_of(terminal, name);
-    if (value.empty()) continue;
-    std::transform(value.begin(), value.end(), value.begin(), [](unsigned char c) { return std::tolower(c); });
-    return contains(value, "utf-8") || contains(value, "utf8");
-  }
-  return false;
-}
-
 std::string base64(std::string_view bytes) {
   constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
@@ -86,17 +77,6 @@ std::string base64(std::string_view bytes) {
     for (size_t k = 0; k < 4; ++k) text += k <= count ? digits[(group >> (18 - 6 * k)) & 63] : '=';
   }
   return text;
-}
-
-struct Cells {
-  int columns, rows;
-};
-
-/// The largest size with the picture's proportions; a cell is taken to be twice as high as wide.
-Cells fit(const Picture& picture, int columns, int rows) {
-  const double ratio = static_cast<double>(picture.height) / picture.width / 2;
-  const double wide = std::min<double>(columns, rows / ratio);
-  return {std::max(1, static_cast<int>(std::lround(wide))), std::max(1, static_cast<int>(std::lround(wide * ratio)))};
 }
 
 /// The PNG itself, in pieces of at most 4096 characters; q=2: no answers, which would look like typed keys.
@@ -164,6 +144,26 @@ std::string by_chafa(const Picture& picture, ImageProtocol protocol, const Termi
 }
 
 }  // namespace
+
+bool speaks_utf8(const Terminal& terminal) {
+  for (const char* name : {"LC_ALL", "LC_CTYPE", "LANG"}) {
+    std::string value = value_of(terminal, name);
+    if (value.empty()) continue;
+    std::transform(value.begin(), value.end(), value.begin(), [](unsigned char c) { return std::tolower(c); });
+    return contains(value, "utf-8") || contains(value, "utf8");
+  }
+  return false;
+}
+
+Cells fit(const Picture& picture, int columns, int rows) {
+  const double ratio = static_cast<double>(picture.height) / picture.width / 2;
+  const double wide = std::min<double>(columns, rows / ratio);
+  return {std::max(1, static_cast<int>(std::lround(wide))), std::max(1, static_cast<int>(std::lround(wide * ratio)))};
+}
+
+std::string in_blocks(const Picture& picture, const Terminal& terminal, const Cells& cells) {
+  return by_chafa(picture, ImageProtocol::blocks, terminal, cells);
+}
 
 const char* name_of(ImageProtocol protocol) {
   for (const auto& [name, value] : protocols)

@@ -9,6 +9,8 @@
 
 namespace tunica {
 
+struct Surroundings;
+
 /// Ways to show a picture within text: kitty's graphics protocol, iTerm2's inline files, sixels, coloured half blocks.
 enum class ImageProtocol { off, kitty, iterm, sixel, blocks };
 const char* name_of(ImageProtocol protocol);
@@ -46,5 +48,8 @@ ImageProtocol choose_protocol(const Terminal& terminal);
 /// The kernel prints nothing: the caller writes them. Errors: columns or rows not within 1 to 10,000.
 std::string terminal_picture(const Picture& picture, ImageProtocol protocol, const Terminal& terminal, int columns,
                              int rows);
+/// The same; but blocks show the content alone, larger, and what is around it is text above and beside it.
+std::string terminal_picture(const Picture& picture, const Surroundings& around, ImageProtocol protocol,
+                             const Terminal& terminal, int columns, int rows);
 
 }  // namespace tunica

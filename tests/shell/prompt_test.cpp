@@ -273,6 +273,8 @@ TEST_F(PromptTest, RunsLooksAndPlots) {
   says("P", "diffusion");
   terminal_->type("show()\r");
   EXPECT_TRUE(terminal_->stands_at(">", 60)) << terminal_->screen().text();
+  EXPECT_TRUE(terminal_->shows("t = "));  // of blocks: letters would be blobs
+  EXPECT_TRUE(terminal_->shows("auxin"));
   EXPECT_EQ(terminal_->screen().text().find("error"), std::string::npos) << terminal_->screen().text();
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "view/png.h"
+#include "view/surroundings.h"
 
 namespace tunica {
 namespace {
@@ -132,6 +133,65 @@ TEST(Terminal, SixelsAndBlocksAreWhatTheySay) {
   const std::string poor = terminal_picture(p, ImageProtocol::blocks, some, 20, 20);
   EXPECT_EQ(poor.find("38;2;"), std::string::npos);
   for (const char c : poor) EXPECT_LT(static_cast<unsigned char>(c), 128);
+}
+
+/// Without control sequences.
+std::string plain(const std::string& text) {
+  std::string out;
+  for (size_t i = 0; i < text.size(); ++i)
+    if (text[i] == '\033')
+      while (i + 1 < text.size() && !std::isalpha(static_cast<unsigned char>(text[i]))) ++i;
+    else
+      out += text[i];
+  return out;
+}
+
+TEST(Terminal, BlocksHaveTheirLegendAsText) {
+  const Terminal rich{true, {{"TERM", "xterm-256color"}, {"COLORTERM", "truecolor"}, {"LANG", "en_GB.UTF-8"}}, ""};
+  const Picture p = gradient(100, 100);
+  const Surroundings around{
+      {10, 20, 60, 60}, "t = 8", {{{{0, 0, 0, 1}, {0, 1, 0, 1}}, -4, 4, "auxin"}}, {{{1, 0, 0, 1}, "pin (full: 4.2)"}}};
+  const std::string all = terminal_picture(p, around, ImageProtocol::blocks, rich, 80, 30), text = plain(all);
+  EXPECT_EQ(text.find("  "), 0u);
+  EXPECT_LT(text.find("t = 8"), text.find('\n'));
+  for (const char* word : {"auxin", " 4", " 2", " 0", "\u22122", "pin (full: 4.2)"})
+    EXPECT_NE(text.find(word), std::string::npos) << word << text;
+  EXPECT_LT(text.find(" 4"), text.find("\u22122"));
+  // The bar runs from green above to black, then comes the key's red; in its row the colours end before the text.
+  const size_t green = all.find("8;2;0;255;0"), red = all.find("8;2;255;0;0");
+  EXPECT_LT(green, red);
+  EXPECT_NE(red, std::string::npos);
+  EXPECT_EQ(all.substr(all.find(" pin (full") - 4, 4), "\033[0m");
+  // What was written as text is not drawn: the content alone fills the height left by the title.
+  EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 30);
+  for (size_t at = 0, end = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {
+    const auto line = text.substr(at, end - at);
+    EXPECT_LE(std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xc0) != 0x80; }), 80);
+  }
+  // Narrow: below. Elsewhere the picture is what it is.
+  const std::string narrow = plain(terminal_picture(p, around, ImageProtocol::blocks, rich, 24, 30));
+  EXPECT_NE(narrow.find("\nauxin\n"), std::string::npos) << narrow;
+  EXPECT_EQ(terminal_picture(p, around, ImageProtocol::sixel, rich, 40, 20),
+            terminal_picture(p, ImageProtocol::sixel, rich, 40, 20));
+  const Terminal poor{true, {{"TERM", "screen-256color"}, {"LANG", "C"}}, ""};
+  for (const char c : terminal_picture(p, around, ImageProtocol::blocks, poor, 80, 30))
+    EXPECT_LT(static_cast<unsigned char>(c), 128);
+  EXPECT_NE(plain(terminal_picture(p, around, ImageProtocol::blocks, poor, 80, 30)).find("-2"), std::string::npos);
+}
+
+TEST(Terminal, LegendsOfAnySizeEnd) {
+  const Terminal rich{true, {{"TERM", "xterm-256color"}, {"LANG", "C.UTF-8"}}, ""};
+  const Picture p = gradient(33, 50);
+  Surroundings around{{-5, -5, 1e6, 1e6}, std::string(300, 'x') + "\n\033[2J", {}, {}};
+  for (int i = 0; i < 3; ++i) around.bars.push_back({{{0, 0, 0, 1}}, i * 1.0, i * 1.0, "\u00e4\u00f6"});
+  around.bars.push_back({{}, NAN, 1, ""});
+  for (int i = 0; i < 20; ++i) around.keys.push_back({{1, 0, 0, 1}, std::string(100, 'y')});
+  for (const int columns : {1, 2, 5, 20, 80, 300})
+    for (const int rows : {1, 2, 5, 40}) {
+      const std::string text = terminal_picture(p, around, ImageProtocol::blocks, rich, columns, rows);
+      EXPECT_FALSE(text.empty());
+      EXPECT_EQ(text.find("\033[2J"), std::string::npos);
+    }
 }
 
 }  // namespace

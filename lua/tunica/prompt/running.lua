@@ -251,8 +251,8 @@ end })
 
 -- Looking -------------------------------------------------------------------------------------------------------------------
 
-local function write_picture(png)
-  local text = core.terminal_picture(png)
+local function write_picture(png, around)
+  local text = core.terminal_picture(png, around)
   if text then
     io.write(text)
     io.flush()
@@ -300,7 +300,8 @@ command("show", { signature = "show([model, ] [what])",
   if given ~= nil and type(given) ~= "string" and type(given) ~= "table" then
     fail("show: expected the name of a view or column, or a table of options, came %s", core.describe(given))
   end
-  write_picture((require("tunica.view").draw(model, view_of(model, given))))
+  local png, _, _, around = require("tunica.view").draw(model, view_of(model, given))
+  write_picture(png, around)
 end })
 
 local function the_tissue(operation, model)
