@@ -5,6 +5,7 @@
 local core = require "tunica.core"
 local registry = require "tunica.registry"
 local surfaces = require "tunica.surfaces"
+local models = require "tunica.model"
 local op, fail = registry.op, registry.fail
 
 local setup = [[
@@ -38,9 +39,10 @@ op { name = "tissue:near", kind = "named", returns = "a list of cells, the neare
   },
   doc = "The cells near a place: to be removed (ablation: for _, c in ipairs(tissue:near { ... }) do c:remove() end), to be given a " ..
     "value, or for model:supply. Distances are those in space. No cell within the radius is refused: the place may be off " ..
-    "the tissue.",
+    "the tissue. With a count alone it is the nearest ones, however far they are.",
   fn = function(self, t)
     if t.place and t.on then fail("tissue:near: give place = { x, y, z }, or on = apex with theta and a, not both") end
+    if not self.has_geometry then fail("tissue:near: the cells of this tissue have no places: it has no geometry") end
     if not t.radius and not t.count then fail("tissue:near: how near? give a radius, or the count of cells") end
     local x, y, z = place_of(t)
     local found = {}
@@ -63,7 +65,8 @@ op { name = "tissue:near", kind = "named", returns = "a list of cells, the neare
 op { name = "model:supply", kind = "named", changes = true, source = "thesis 5.5.3, fig. 5.12", returns = "text: the name of the new column",
   args = {
     { name = "column", type = "string", required = true, position = 1, doc = "what is supplied: a column with a rate or flux" },
-    { name = "rate", type = "number", required = true, doc = "added to its rate of change in these cells: concentration per time" },
+    { name = "rate", type = "number", required = true, doc = "added to its rate of change in these cells: concentration per time; " ..
+      "below 0 it is taken out, and the run ends where nothing is left to be taken (unless the column is `signed`)" },
     { name = "cells", type = "list|function", required = true,
       doc = "the cells; or a function that returns them, called when the supply starts" },
     { name = "from", type = "number", min = 0, unit = "time", doc = "when it starts: now, if left out" },
@@ -81,6 +84,11 @@ model:supply { "auxin", rate = 5, cells = tissue:near { { 0, 0 }, count = 3 }, f
 model:advance(2)
 print(tissue:max "auxin")]],
   fn = function(model, t)
+    if models.inside[model].advancing then
+      fail("model:supply cannot be called while the model runs, in an event or a condition: the rule it adds would be missing when the " ..
+        "script is loaded to resume the run. Call it before, with 'from' and a function for the cells; or let the script's own rate add " ..
+        "a column that the event sets")
+    end
     local tissue = model.tissue
     local from, to = t.from or model.time, t.to
     if from < model.time then fail("model:supply: 'from' is %.6g, but the model is at %.6g already", from, model.time) end
@@ -100,7 +108,11 @@ print(tissue:max "auxin")]],
       end
       for _, c in ipairs(cells) do
         if core.kind(c) ~= "cell" then fail("model:supply: 'cells' holds %s, which is no cell", core.describe(c)) end
-        if c.alive and core.tissue_of(c) ~= tissue then fail("model:supply: 'cells' holds a cell of another tissue") end
+        if core.tissue_of(c) ~= tissue then fail("model:supply: 'cells' holds a cell of another tissue") end
+        if not c.alive then
+          local _, why = pcall(core.neighbours, c)
+          fail("model:supply: 'cells' holds a cell that is gone: %s", (tostring(why):gsub("^[^\n]-:%d+: ", "")))
+        end
       end
     end
     local later = from > model.time and type(t.cells) == "table"
@@ -108,9 +120,7 @@ print(tissue:max "auxin")]],
     tissue:cell { [name] = 0 }
     if later then  -- daughters inherit the mark until it starts
       tissue:cell { [marks] = 0 }
-      for _, c in ipairs(t.cells) do
-        if c.alive then c[marks] = 1 end
-      end
+      for _, c in ipairs(t.cells) do c[marks] = 1 end
     end
     local function start()
       if later then
@@ -124,9 +134,7 @@ print(tissue:max "auxin")]],
         cells = cells()
         check_cells(cells)
       end
-      for _, c in ipairs(cells) do
-        if c.alive then c[name] = t.rate end
-      end
+      for _, c in ipairs(cells) do c[name] = t.rate end
     end
     if from <= model.time then start() else model:at(from, start) end
     if to then

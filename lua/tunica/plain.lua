@@ -75,7 +75,7 @@ local function decode(text, at, tissue)
     return text:sub(at + 1, at + 1) == "1", at + 2
   elseif mark == "h" then
     local kind, id, after = text:match("^(%a+):(%d+);()", at + 1)
-    return tissue and core.find(tissue, kind, tonumber(id)), after
+    return tissue and core.handle(tissue, kind, tonumber(id)), after
   elseif mark == "c" then
     local degree, after = text:match("^(%d+);()", at + 1)
     local name, points
@@ -95,7 +95,7 @@ local function decode(text, at, tissue)
   return nil, at + 1
 end
 
---- The value again; handles are of `tissue`, nil if their element is gone.
+--- The value again; handles are of `tissue`, also those whose element was gone already.
 function plain.decode(text, tissue) return (decode(text, 1, tissue)) end
 
 -- What functions keep -----------------------------------------------------------------------------------------------------

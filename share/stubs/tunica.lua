@@ -290,7 +290,7 @@ function tissue:show(options) end
 ---@field theta? number angle around its axis, and (number; degrees)
 ---@field a? number arc length from its tip (number 0 or more; length)
 
----The cells near a place: to be removed (ablation: for _, c in ipairs(tissue:near { ... }) do c:remove() end), to be given a value, or for model:supply. Distances are those in space. No cell within the radius is refused: the place may be off the tissue.
+---The cells near a place: to be removed (ablation: for _, c in ipairs(tissue:near { ... }) do c:remove() end), to be given a value, or for model:supply. Distances are those in space. No cell within the radius is refused: the place may be off the tissue. With a count alone it is the nearest ones, however far they are.
 ---
 ---Source: thesis 5.5.3
 ---@param options? tunica.tissue_near_options|number[]
@@ -661,7 +661,7 @@ function model:view(options) end
 ---@class tunica.model_supply_options
 ---@field column? string what is supplied: a column with a rate or flux (text; needed)
 ---@field [1]? string the same
----@field rate? number added to its rate of change in these cells: concentration per time (number; needed)
+---@field rate? number added to its rate of change in these cells: concentration per time; below 0 it is taken out, and the run ends where nothing is left to be taken (unless the column is `signed`) (number; needed)
 ---@field cells? any[]|function the cells; or a function that returns them, called when the supply starts (list of items or function; needed)
 ---@field from? number when it starts: now, if left out (number 0 or more; time)
 ---@field to? number when it ends: never, if left out (number 0 or more; time)

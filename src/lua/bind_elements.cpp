@@ -79,6 +79,15 @@ int find(lua_State* L) {
   });
 }
 
+/// handle(tissue, kind, identity) -> the element, which may be gone
+int handle(lua_State* L) {
+  return guard(L, [&] {
+    tissue_at(L, 1);
+    push_identity(L, 1, check_kind(L, 2), static_cast<Id>(check_integer(L, 3, "an identity", 0, UINT32_MAX)));
+    return 1;
+  });
+}
+
 int count(lua_State* L) {
   return guard(L, [&] {
     lua_pushnumber(L, tissue_at(L, 1).count(check_kind(L, 2)));
@@ -237,6 +246,7 @@ void register_elements(lua_State* L) {
                                 {"tissue_of", tissue_of},
                                 {"data", tissue_data},
                                 {"find", find},
+                                {"handle", handle},
                                 {"count", count},
                                 {"valence", valence},
                                 {"side_count", side_count},

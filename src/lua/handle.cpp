@@ -96,22 +96,39 @@ bool push_rules(lua_State* L, const Tissue* tissue) {
   return true;
 }
 
+namespace {
+
+/// The tissue's box of a tissue or of a handle into it; makes the stack index absolute.
+TissueBox* box_of(lua_State* L, int& owner) {
+  if (owner < 0 && owner > LUA_REGISTRYINDEX) owner += lua_gettop(L) + 1;
+  const int type = type_of(L, owner);
+  if (type < 0) fail("expected a tissue or one of its elements, came {}", describe(L, owner));
+  return type == tissue_type ? static_cast<TissueBox*>(lua_touserdata(L, owner))
+                             : static_cast<Handle*>(lua_touserdata(L, owner))->box;
+}
+
+void push_handle(lua_State* L, int owner, const Handle& handle) {
+  new (lua_newuserdata(L, sizeof(Handle))) Handle(handle);
+  push_metatable(L, static_cast<int>(handle.kind));
+  lua_setmetatable(L, -2);
+  lua_getfenv(L, owner);
+  lua_setfenv(L, -2);
+}
+
+}  // namespace
+
 void push_element(lua_State* L, int owner, Kind kind, Index index) {
   if (index == none) {
     lua_pushnil(L);
     return;
   }
-  if (owner < 0 && owner > LUA_REGISTRYINDEX) owner += lua_gettop(L) + 1;
-  const int type = type_of(L, owner);
-  if (type < 0) fail("expected a tissue or one of its elements, came {}", describe(L, owner));
-  auto* box = type == tissue_type ? static_cast<TissueBox*>(lua_touserdata(L, owner))
-                                  : static_cast<Handle*>(lua_touserdata(L, owner))->box;
-  const Id id = open_tissue(*box).id(kind, index);
-  new (lua_newuserdata(L, sizeof(Handle))) Handle{box, id, index, kind};
-  push_metatable(L, static_cast<int>(kind));
-  lua_setmetatable(L, -2);
-  lua_getfenv(L, owner);
-  lua_setfenv(L, -2);
+  TissueBox* box = box_of(L, owner);
+  push_handle(L, owner, {box, open_tissue(*box).id(kind, index), index, kind});
+}
+
+void push_identity(lua_State* L, int owner, Kind kind, Id id) {
+  TissueBox* box = box_of(L, owner);
+  push_handle(L, owner, {box, id, open_tissue(*box).find(kind, id), kind});
 }
 
 bool is_tissue(lua_State* L, int at) { return type_of(L, at) == tissue_type; }

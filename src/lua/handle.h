@@ -22,6 +22,8 @@ void push_tissue(lua_State* L, std::shared_ptr<Tissue> tissue);
 /// Pushes a handle to an element, or nil if `index` is none. `owner` is the stack index of the tissue or of any handle
 /// into it.
 void push_element(lua_State* L, int owner, Kind kind, Index index);
+/// Pushes a handle to the element of an identity, which may be gone.
+void push_identity(lua_State* L, int owner, Kind kind, Id id);
 
 /// The tissue at a stack index. Errors: something else.
 std::shared_ptr<Tissue> check_tissue(lua_State* L, int at);

@@ -60,6 +60,56 @@ check.fails(function() model:supply { "auxin", rate = 1, cells = { 3 } } end, "n
 check.fails(function() model:supply { "auxin", rate = 1, cells = cells, from = 1 } end, "at 6.5 already")
 check.fails(function() model:supply { "auxin", rate = 1, cells = cells, from = 8, to = 8 } end, "after 'from'")
 
+-- What is gone, or cannot be resumed, is refused and not passed over.
+local fifth = sheet:near({ { -2, 0 }, count = 1 })[1]
+local one, two = fifth:divide()
+check.fails(function() model:supply { "auxin", rate = 1, cells = { one, fifth } } end, "a cell that is gone", "has divided into " .. one.id .. " and " .. two.id)
+model:supply { "auxin", rate = 1, cells = function() return { fifth } end, from = 7 }
+local ok, why = pcall(model.advance, model, 7.5)
+assert(not ok and why:find("a cell that is gone", 1, true), why)
+check.fails(function() tunica.ring({ 10 }):near { { 0, 0 }, count = 1 } end, "have no places")
+for _, rate in ipairs { 0 / 0, 1 / 0, "5" } do
+  check.fails(function() model:supply { "auxin", rate = rate, cells = { one } } end, "'rate' must be a number")
+end
+local function small()
+  local s = tunica.sheet { cells = 30, seed = 1 }
+  s:cell { auxin = 1 }
+  local m = tunica.model { tissue = s, dt = 0.01 }
+  m:rate(function(c, d) d.auxin = 0 * c.auxin end)
+  return m, s, s:near { { 0, 0 }, count = 3 }
+end
+local m, s, c = small()
+m:at(1, function() m:supply { "auxin", rate = 1, cells = c } end)
+ok, why = pcall(m.advance, m, 2)
+assert(not ok and why:find("cannot be called while the model runs", 1, true), why)
+
+-- A snapshot in the middle of a supply: the same state from there, dead cells that functions hold included; back and on again.
+m, s, c = small()
+m:supply { "auxin", rate = 5, cells = c, from = 1, to = 3 }
+m:at(1.5, function() c[2]:divide() end)
+m:at(1.7, function() c[3]:remove() end)
+local alive
+m:at(2.5, function() alive = c[1].alive and not c[2].alive and not c[3].alive end)
+for _, middle in ipairs { 0.5, 1, 1.6, 2, 3 } do
+  m:advance(middle)
+  local snapshot, begin = m:snapshot(), m:hash()
+  m:advance(4)
+  local whole = m:hash()
+  check.equal(alive, true)
+  check.near(c[1].auxin, 11, 1e-9)
+  m:restore(snapshot)
+  check.equal(m:hash(), begin)
+  m:advance(4)
+  check.equal(m:hash(), whole)
+  check.fails(function() return c[2].area end, "has divided into")
+  m, s, c = small()
+  m:supply { "auxin", rate = 5, cells = c, from = 1, to = 3 }
+  m:at(1.5, function() c[2]:divide() end)
+  m:at(1.7, function() c[3]:remove() end)
+  m:at(2.5, function() alive = c[1].alive and not c[2].alive and not c[3].alive end)
+  alive = nil
+end
+
 -- A view that is a plot
 model:view { name = "curve", plot = function(t) return { y = { 1, 3, 2 }, xlabel = "n", title = "at " .. t } end }
 local view = require "tunica.view"
