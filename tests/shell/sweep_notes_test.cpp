@@ -2,6 +2,7 @@
 #include "shell/sweep_notes.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 
@@ -20,7 +21,8 @@ constexpr const char* about =
 /// What is said of a file with these notes besides good ones; "" if nothing.
 std::string said_of(const std::map<std::string, std::string>& notes,
                     const std::vector<std::string>& parameters = {"1"}) {
-  const std::string path = std::filesystem::path(testing::TempDir()) / "tunica_notes_test.db";
+  const std::string path =
+      std::filesystem::path(testing::TempDir()) / ("tunica_notes_test_" + std::to_string(getpid()) + ".db");
   std::filesystem::remove(path);
   sweep::Table table(path, sweep::Table::Mode::write);
   table.set_note("model", "model.lua");
@@ -44,7 +46,8 @@ TEST(SweepNotes, GoodOnesPass) {
 }
 
 TEST(SweepNotes, AFileThatWasBarelyBegunPasses) {
-  const std::string path = std::filesystem::path(testing::TempDir()) / "tunica_notes_begun.db";
+  const std::string path =
+      std::filesystem::path(testing::TempDir()) / ("tunica_notes_begun_" + std::to_string(getpid()) + ".db");
   std::filesystem::remove(path);
   check_notes(sweep::Table(path, sweep::Table::Mode::write));
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 class TableFile : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / "tunica_table_test";
+    folder_ = fs::path(testing::TempDir()) / ("tunica_table_test_" + std::to_string(getpid()));
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     Table table(good(), Table::Mode::write);
