@@ -21,7 +21,20 @@ local function held_values(my)
   for name, value in pairs(values_of(my)) do
     if type(value) ~= "number" then choices[name] = value end
   end
-  return plain.encode { plain.upvalues(functions), choices }
+  return plain.encode { plain.upvalues(functions), choices }, plain.watch(functions), choices
+end
+
+--- Whether they are what they were when the rules were bound, for sure: asked before and after every event.
+local function holds_the_same(my)
+  if not my.watch or not my.watch() then return false end
+  local values = values_of(my)
+  for name, value in pairs(my.choices) do
+    if values[name] ~= value then return false end
+  end
+  for name, value in pairs(values) do
+    if type(value) ~= "number" and my.choices[name] == nil then return false end
+  end
+  return true
 end
 
 local function untraced_warning(my, r, reason)
@@ -138,7 +151,10 @@ end
 
 local function prepare(my)
   if my.busy then fail("a model cannot be run, saved or looked into from inside its own rules") end
-  local held, more = held_values(my), can_know_more(my)
+  local more = can_know_more(my)
+  if not my.stale and not more and holds_the_same(my) then return end
+  local held, watch, choices = held_values(my)
+  my.watch, my.choices = watch, choices
   if not my.stale and not more and held == my.held then return end
   if more or my.held and held ~= my.held then
     for _, r in ipairs(my.rules) do r.direct = nil end

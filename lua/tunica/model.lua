@@ -218,7 +218,7 @@ local function advance(model, o)
     local fired = course.fire(my, now, slack, refresh_derived)
     prepare(my)
     if fired then verify_now_and_then(my) end
-    if fired or model.steps == 0 then
+    if #my.conditions > 0 and (fired or model.steps == 0) then
       conditions.test(my, now, refresh_derived)
       prepare(my)
     end

@@ -142,6 +142,36 @@ function plain.upvalues(list)
   return { values = values, missing = missing }
 end
 
+--- A function that tells whether the plain upvalues of these functions are what they are now, without gathering them. What is no
+-- table is compared as it is.
+function plain.watch(list)
+  local watched, tables, seen = {}, {}, {}
+  local function text_of(value) return plain.encode(kept[value] and kept[value].get() or value) end
+  local function walk(fn)
+    local about = debug.getinfo(fn, "S")
+    if seen[fn] or about.what == "C" or about.source:sub(1, #library) == library then return end
+    seen[fn] = true
+    local values = {}
+    for i, upvalue in ipairs(core.upvalues(fn)) do
+      local value = upvalue[2]
+      values[i] = value
+      if type(value) == "function" then walk(value)
+      elseif value ~= nil and (kept[value] or is_plain_table(value)) then tables[#tables + 1] = { value, text_of(value) } end
+    end
+    watched[#watched + 1] = { fn, values }
+  end
+  for _, fn in ipairs(list) do walk(fn) end
+  return function()
+    for _, w in ipairs(watched) do
+      if not core.same_upvalues(w[1], w[2]) then return false end
+    end
+    for _, t in ipairs(tables) do
+      if text_of(t[1]) ~= t[2] then return false end
+    end
+    return true
+  end
+end
+
 --- A table keeps its identity and gets its old contents back; entries that are not plain stay.
 local function refill(old, new)
   for key, value in pairs(old) do

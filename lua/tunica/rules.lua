@@ -299,14 +299,22 @@ function rules.can_know(rule, tissue) return rule.waits and #inner_elements(tiss
 
 --- Some elements on which to compare a traced rule with direct evaluation: spread over the tissue, the border included.
 local function samples(tissue, kind, about)
-  local some, at, due, last = {}, 0, 1, nil
-  local stride = math.max(1, math.floor(core.count(tissue, kind) / about))
-  for e in core.each(tissue, kind) do
-    at = at + 1
-    if at >= due and is_inner(e, kind) then some[#some + 1], due = e, at + stride end
-    last = e
+  local some, count = {}, core.count(tissue, kind)
+  local stride = math.max(1, math.floor(count / about))
+  local at = 1
+  while at <= count do
+    local e = core.element(tissue, kind, at)
+    if is_inner(e, kind) then
+      some[#some + 1] = e
+      at = at + stride
+    else
+      at = at + 1
+    end
   end
-  if last and is_inner(last, kind) then some[#some + 1] = last end
+  if count > 0 and (at - stride ~= count or #some == 0) then
+    local last = core.element(tissue, kind, count)
+    if is_inner(last, kind) then some[#some + 1] = last end
+  end
   return some
 end
 

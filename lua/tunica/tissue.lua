@@ -176,23 +176,6 @@ local tunica = require "tunica"
 local tissue = tunica.sheet { cells = 20, seed = 1 }
 ]]
 
---- Whether the cells have both of these columns.
-local function has_both(tissue, one, other)
-  local found = 0
-  for _, name in ipairs(core.columns(tissue, "cell")) do
-    if name == one or name == other then found = found + 1 end
-  end
-  return found == 2
-end
-local function has_place(tissue) return has_both(tissue, "theta", "a") end
-
---- Where cells are on an apex and in which primordium, as far as the tissue has columns for it.
-local function relocate(tissue, on)
-  local surface = surfaces.core_of(on)
-  if has_place(tissue) and core.is_on_apex(surface) then core.locate(tissue, surface) end
-  if surfaces.is_bulging(on) and has_both(tissue, "primordium", "closeness") then core.differentiate(tissue, surface) end
-end
-
 op { name = "tissue:grow", kind = "named", source = "thesis 3.3, 10.2",
   args = {
     { name = "rate", type = "number", position = 1, unit = "1 / time",
@@ -218,7 +201,7 @@ op { name = "tissue:grow", kind = "named", source = "thesis 3.3, 10.2",
     if t.on then
       local surface = surfaces.core_of(t.on)
       core.grow_on(self, surface, t.time, t.from)
-      relocate(self, t.on)
+      core.follow(self, surface)
     elseif t.rate then core.grow_uniform(self, t.time, t.rate, t.centre)
     elseif t.rates then core.grow_anisotropic(self, t.time, t.rates[1], t.rates[2], t.direction, t.centre)
     else core.grow_field(self, t.time, t.velocity, t.from or 0, t.substeps) end
@@ -299,11 +282,7 @@ op { name = "tissue:divide", kind = "named", returns = "the number of divisions"
     "as its rule says is an error, raised when all others are divided.",
   fn = function(self, t)
     local surface = t.on and surfaces.core_of(t.on)
-    local done, divisions = pcall(core.divide_cells, self, t.above, t.variation, t.where, t.max_cells, rule_of(t), t.direction,
-      t.gap, t.pinch, surface)
-    if surface and (not done or divisions > 0) then relocate(self, t.on) end
-    if not done then error(divisions, 0) end  -- others were divided
-    return divisions
+    return core.divide_cells(self, t.above, t.variation, t.where, t.max_cells, rule_of(t), t.direction, t.gap, t.pinch, surface)
   end,
   example = sheet .. [[
 print(tissue:divide { above = 0.5, variation = 0.1 })
@@ -315,7 +294,7 @@ op { name = "cell:divide", kind = "named", returns = "the two daughters", source
   fn = function(self, t)
     local surface = t.on and surfaces.core_of(t.on)
     local first, second = core.divide_cell(self, rule_of(t), t.direction, t.gap, t.pinch, surface)
-    if surface and has_place(first.tissue) and core.is_on_apex(surface) then core.locate_around(surface, first, second) end
+    if surface then core.follow_around(surface, first, second) end
     return first, second
   end,
   example = sheet .. "local a, b = tissue:cells()():divide { direction = { 0, 1 } }\nprint(a.area, b.area)" }

@@ -52,14 +52,26 @@ int locate_all(lua_State* L) {
   });
 }
 
-/// locate_around(surface, cell, ...): the cells and their neighbours
-int locate_some(lua_State* L) {
+/// follow(tissue, surface): columns theta and a, primordium and closeness, as far as the tissue has them
+int follow_all(lua_State* L) {
   return guard(L, [&] {
-    std::shared_ptr<Surface> owner;
-    const Apex& apex = apex_below_at(L, 1, owner);
+    const Entering entering(L);
+    Tissue& tissue = tissue_at(L, 1);
+    follow(tissue, *surface_at(L, 2));
+    return 0;
+  });
+}
+
+/// follow_around(surface, cell, ...): of the cells and their neighbours
+int follow_some(lua_State* L) {
+  return guard(L, [&] {
+    const Entering entering(L);
+    const auto surface = surface_at(L, 1);
     for (int at = 2; at <= lua_gettop(L); ++at) {
       const auto [tissue, kind, cell] = check_element(L, at, Kind::cell);
-      locate_around(tissue, cell, apex);
+      std::vector<Id> cells = {tissue.id(Kind::cell, cell)};
+      for (const Index n : tissue.neighbours(cell)) cells.push_back(tissue.id(Kind::cell, n));
+      follow(tissue, *surface, cells);
     }
     return 0;
   });
@@ -81,7 +93,7 @@ int remove_far(lua_State* L) {
 
 void register_apex_tissue(lua_State* L) {
   const luaL_Reg functions[] = {{"build_apex_tissue", build},   {"is_on_apex", is_on_apex},    {"locate", locate_all},
-                                {"locate_around", locate_some}, {"remove_beyond", remove_far}, {nullptr, nullptr}};
+                                {"follow", follow_all}, {"follow_around", follow_some}, {"remove_beyond", remove_far}, {nullptr, nullptr}};
   add_functions(L, functions);
 }
 

@@ -5,6 +5,7 @@
 
 #include "lua/bind_tissue.h"
 #include "lua/surfaces.h"
+#include "shape/apex_tissue.h"
 #include "tissue/division.h"
 
 namespace tunica::lua {
@@ -145,6 +146,22 @@ int64_t divide_where(lua_State* L, Tissue& tissue, int where, const Threshold* t
   return divisions;
 }
 
+int64_t divide_and_follow(lua_State* L, Tissue& tissue, const Threshold& threshold, const DivisionRule& rule,
+                          const DivisionSettings& settings, const Surface* surface) {
+  std::vector<Id> changed;
+  const auto update = [&] {
+    if (surface && !changed.empty()) follow(tissue, *surface, changed);
+  };
+  try {
+    const int64_t divisions = divide_above(tissue, threshold, rule, settings, surface, &host(L).cancel, &changed);
+    update();
+    return divisions;
+  } catch (...) {  // others were divided
+    update();
+    throw;
+  }
+}
+
 /// divide_cells(tissue, above, variation, where, max_cells, rule, direction, gap, pinch, surface or nil) -> number of
 /// divisions
 int divide_cells(lua_State* L) {
@@ -164,11 +181,17 @@ int divide_cells(lua_State* L) {
     int64_t divisions = 0;
     if (lua_isnil(L, 4)) {
       if (lua_isnil(L, 2)) fail("say which cells divide: above = area, or where = function(c) ... end");
-      divisions = divide_above(tissue, threshold, rule, settings, surface.get(), &host(L).cancel);
+      divisions = divide_and_follow(L, tissue, threshold, rule, settings, surface.get());
     } else {
       check_function(L, 4, "'where'");
-      divisions = divide_where(L, tissue, 4, lua_isnil(L, 2) ? nullptr : &threshold, threshold.most_cells, rule,
-                               settings, surface.get());
+      try {
+        divisions = divide_where(L, tissue, 4, lua_isnil(L, 2) ? nullptr : &threshold, threshold.most_cells, rule,
+                                 settings, surface.get());
+      } catch (...) {
+        if (surface) follow(tissue, *surface);
+        throw;
+      }
+      if (surface && divisions > 0) follow(tissue, *surface);
     }
     lua_pushnumber(L, static_cast<double>(divisions));
     return 1;

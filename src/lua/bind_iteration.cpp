@@ -54,6 +54,17 @@ int each(lua_State* L) {
   });
 }
 
+/// element(tissue, kind, n) -> the n-th of the tissue, as it is stored now
+int element_at(lua_State* L) {
+  return guard(L, [&] {
+    const Tissue& tissue = tissue_at(L, 1);
+    const Kind kind = check_kind(L, 2);
+    const auto n = check_integer(L, 3, "a number", 1, tissue.count(kind));
+    push_element(L, 1, kind, static_cast<Index>(n - 1));
+    return 1;
+  });
+}
+
 // === Iteration around a cell or junction: the handles are made at the start and kept in a table.
 
 int next_of_list(lua_State* L) {
@@ -148,6 +159,7 @@ int cells_of_junction(lua_State* L) {
 
 void register_iteration(lua_State* L) {
   const luaL_Reg functions[] = {{"each", each},
+                                {"element", element_at},
                                 {"neighbours", neighbours},
                                 {"cell_sides", around_cell<Kind::side>},
                                 {"cell_walls", around_cell<Kind::wall>},

@@ -85,6 +85,22 @@ int upvalues(lua_State* L) {
   });
 }
 
+/// same_upvalues(function, list) -> whether its upvalues are the values of the list, each the very same
+int same_upvalues(lua_State* L) {
+  return guard(L, [&] {
+    check_function(L, 1, "a function");
+    check_table(L, 2, "a list");
+    bool same = !lua_iscfunction(L, 1);
+    for (int i = 1; same && lua_getupvalue(L, 1, i); ++i) {
+      lua_rawgeti(L, 2, i);
+      same = lua_rawequal(L, -1, -2);
+      lua_settop(L, 2);
+    }
+    lua_pushboolean(L, same);
+    return 1;
+  });
+}
+
 int set_upvalue(lua_State* L) {
   return guard(L, [&] {
     check_function(L, 1, "a function");
@@ -140,6 +156,7 @@ void register_model(lua_State* L) {
                                 {"tissue_load", tissue_load},
                                 {"tissue_carry", tissue_carry},
                                 {"upvalues", upvalues},
+                                {"same_upvalues", same_upvalues},
                                 {"set_upvalue", set_upvalue},
                                 {nullptr, nullptr}};
   add_functions(L, functions);

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "shape/apex_tables.h"
 
 namespace tunica {
 
@@ -40,19 +39,41 @@ Vec3 Apex::normal(const Place& place) const {
 }
 
 Vec3 Apex::normal(const Vec3& p) const {
-  const double r = std::sqrt(p.x() * p.x() + p.z() * p.z()), a = arc_of(p);
+  const double r = std::sqrt(p.x() * p.x() + p.z() * p.z());
+  const auto near = nearest(p, r);
+  const double a = near ? near->a : place_of(p).a;
   if (!profile_->has_hole() && a <= 1e-12 * profile_->length()) return Vec3::UnitY();
   if (!(r > 0)) return normal(Place{0, a});
-  const ApexTables& tables = tables_->ready(*profile_, *flow_);
-  const Vec2 along = tables.at(a) ? tables.tangent(a) : profile_->tangent(a);
+  const Vec2 along = near ? near->tangent : profile_->tangent(a);
   return {-along.y() * (p.x() / r), along.x(), -along.y() * (p.z() / r)};
+}
+
+/// From the tables, at a distance r from the axis.
+std::optional<ApexTables::Place> Apex::nearest(const Vec3& p, double r) const {
+  if (!p.allFinite()) return std::nullopt;  // the longer way says so
+  return tables_->ready(*profile_, *flow_).nearest({r, p.y()});
 }
 
 double Apex::arc_of(const Vec3& p) const {
   if (!p.allFinite()) return place_of(p).a;  // which says so
   const Vec2 flat(std::sqrt(p.x() * p.x() + p.z() * p.z()), p.y());
-  if (const auto a = tables_->ready(*profile_, *flow_).nearest(flat)) return *a;
-  return place_of(p).a;
+  const auto a = tables_->ready(*profile_, *flow_).nearest_arc(flat);
+  return a ? *a : place_of(p).a;
+}
+
+Vec3 Apex::facing(const Vec3& p) const {
+  const double r = std::sqrt(p.x() * p.x() + p.z() * p.z());
+  const auto out = r > 0 ? tables_->ready(*profile_, *flow_).facing({r, p.y()}) : std::nullopt;
+  if (!out) return normal(p);
+  return {out->x() * (p.x() / r), out->y(), out->x() * (p.z() / r)};
+}
+
+bool Apex::is_beyond(const Vec3& p, double a) const {
+  const double r = std::sqrt(p.x() * p.x() + p.z() * p.z());
+  if (p.allFinite())
+    if (const auto guess = tables_->ready(*profile_, *flow_).guess({r, p.y()}))
+      if (std::abs(guess->a - a) > guess->within) return guess->a > a;
+  return arc_of(p) > a;
 }
 
 /// The point of the surface at an arc length, in the direction of p from the axis.
@@ -65,12 +86,21 @@ Vec3 Apex::in_direction_of(const Vec3& p, double a) const {
 }
 
 Vec3 Apex::advance(const Vec3& p, double, double dt) const {
+  const double r = std::sqrt(p.x() * p.x() + p.z() * p.z());
+  if (r > 0)
+    if (const auto q = tables_->ready(*profile_, *flow_).moved({r, p.y()}, dt))
+      return {q->x() * (p.x() / r), q->y(), q->x() * (p.z() / r)};
   const double a = arc_of(p);
   const auto there = tables_->ready(*profile_, *flow_).after(a, dt);
   return in_direction_of(p, there ? *there : after(a, dt));
 }
 
-Vec3 Apex::closest(const Vec3& p) const { return in_direction_of(p, arc_of(p)); }
+Vec3 Apex::closest(const Vec3& p) const {
+  const double r = std::sqrt(p.x() * p.x() + p.z() * p.z());
+  const auto near = r > 0 ? nearest(p, r) : std::nullopt;
+  if (!near) return in_direction_of(p, arc_of(p));
+  return {near->point.x() * (p.x() / r), near->point.y(), near->point.x() * (p.z() / r)};
+}
 
 Path Apex::path(double a0, double oldest) const { return {*this, a0, oldest}; }
 

@@ -3,13 +3,13 @@
 
 #include <memory>
 
+#include "shape/apex_tables.h"
 #include "shape/flow.h"
 #include "shape/profile.h"
 #include "tissue/surface.h"
 
 namespace tunica {
 
-class ApexTables;
 class Path;
 
 /// A shoot apex (thesis 3.3): a surface of revolution around the y axis with the tip at the top, growing along its
@@ -45,8 +45,11 @@ class Apex : public Surface {
   Vec3 advance(const Vec3& p, double t, double dt) const override;
   Vec3 closest(const Vec3& p) const override;
   Vec3 normal(const Vec3& p) const override;
+  Vec3 facing(const Vec3& p) const override;
   /// As place_of(p).a.
   double arc_of(const Vec3& p) const;
+  /// arc_of(p) > a, found with less work where it is clear.
+  bool is_beyond(const Vec3& p, double a) const;
 
   /// The way of what is at a0 at age 0. @param oldest  ages up to this one are tabulated. Errors: as after(), and an
   /// oldest age that is not positive.
@@ -54,6 +57,7 @@ class Apex : public Surface {
 
  private:
   Vec3 in_direction_of(const Vec3& p, double a) const;
+  std::optional<ApexTables::Place> nearest(const Vec3& p, double r) const;
   std::shared_ptr<const Profile> profile_;
   std::shared_ptr<const Flow> flow_;
   std::shared_ptr<ApexTables> tables_;

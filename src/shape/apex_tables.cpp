@@ -2,6 +2,7 @@
 #include "shape/apex_tables.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace tunica {
 
@@ -11,6 +12,8 @@ constexpr double least_rise = .05;       ///< of x - y along the profile, for wh
 constexpr double on_profile = 1e-9;      ///< nearer than this, relative to its length, a point is on the profile
 constexpr double nearest_to_tip = 2e-3;   ///< relative to where the rate gets constant: the clock starts there
 constexpr size_t buckets_per_step = 4;
+constexpr double share_of_slow_start = 1e-2;  ///< of where the rate gets constant: nearer to the tip time is too steep a function
+constexpr double movement_tolerance = 1e-10;  ///< relative to the length of the profile
 
 /// For even steps of a quantity that grows: in which of the given intervals each falls.
 std::vector<size_t> buckets(const std::vector<double>& grows) {
@@ -41,6 +44,7 @@ const ApexTables& ApexTables::ready(const Profile& profile, const Flow& flow) {
   std::call_once(once_, [&] {
     tabulate(profile);
     tabulate(flow);
+    tabulate_movement(profile, flow);
   });
   return *this;
 }
@@ -83,17 +87,18 @@ std::optional<Vec2> ApexTables::at(double a) const {
   return Vec2(track_.value(p, 0), track_.value(p, 1));
 }
 
-Vec2 ApexTables::tangent(double a) const {
-  const auto p = track_.find(a);
-  return Vec2(track_.slope(p, 0), track_.slope(p, 1)).normalized();
-}
-
-std::optional<double> ApexTables::nearest(const Vec2& p) const {
-  if (!track_) return std::nullopt;
-  const double level = p.x() - p.y();
+/// The a of a level, near enough for a first guess.
+double ApexTables::between_steps(double level) const {
   const size_t step = interval(level_, by_level_, level);
   const double from = track_.start(step), to = step + 1 < track_.steps() ? track_.start(step + 1) : track_.last();
-  double a = from + (to - from) * std::clamp((level - level_[step]) / (level_[step + 1] - level_[step]), 0., 1.);
+  return from + (to - from) * std::clamp((level - level_[step]) / (level_[step + 1] - level_[step]), 0., 1.);
+}
+
+std::optional<double> ApexTables::nearest_arc(const Vec2& p) const {
+  if (!track_) return std::nullopt;
+  const double level = p.x() - p.y();
+  double a = place_ && level >= place_.first() && level <= place_.last() ? place_.value(place_.find(level), 1)
+                                                                         : between_steps(level);
   for (int i = 0; i < 12; ++i) {
     const auto at = track_.find(a);
     const Vec2 away(track_.value(at, 0) - p.x(), track_.value(at, 1) - p.y());
@@ -112,6 +117,13 @@ std::optional<double> ApexTables::nearest(const Vec2& p) const {
     return a;
   }
   return std::nullopt;
+}
+
+std::optional<ApexTables::Place> ApexTables::nearest(const Vec2& p) const {
+  const auto a = nearest_arc(p);
+  if (!a) return std::nullopt;
+  const auto at = track_.find(*a);
+  return Place{*a, {track_.value(at, 0), track_.value(at, 1)}, Vec2(track_.slope(at, 0), track_.slope(at, 1)).normalized()};
 }
 
 // === Growth
@@ -138,19 +150,19 @@ void ApexTables::tabulate(const Flow& flow) {
   by_time_ = buckets(times_);
 }
 
-std::optional<double> ApexTables::after(double a, double dt) const {
-  if (!clock_ || !(dt >= 0) || !(a > 0)) return std::nullopt;
-  const auto tail = [&](double time) {
-    return speed_at_last_ * (tail_rate_ == 0 ? time : std::expm1(tail_rate_ * time) / tail_rate_);
-  };
-  if (a >= last_) {
-    const double speed = speed_at_last_ + tail_rate_ * (a - last_);
-    return a + speed * (tail_rate_ == 0 ? dt : std::expm1(tail_rate_ * dt) / tail_rate_);
+/// How long what starts close to the tip takes to a place.
+double ApexTables::time(double a) const {
+  if (a < last_) return clock_.value(clock_.find(std::log(a)), 0);
+  const double way = (a - last_) / speed_at_last_;
+  return times_.back() + (tail_rate_ == 0 ? way : std::log1p(tail_rate_ * way) / tail_rate_);
+}
+
+/// Its inverse.
+double ApexTables::a_of_time(double time) const {
+  if (time >= times_.back()) {
+    const double left = time - times_.back();
+    return last_ + speed_at_last_ * (tail_rate_ == 0 ? left : std::expm1(tail_rate_ * left) / tail_rate_);
   }
-  const double log_a = std::log(a);
-  if (!(log_a >= clock_.first())) return std::nullopt;
-  const double time = clock_.value(clock_.find(log_a), 0) + dt;
-  if (!(time < times_.back())) return last_ + tail(time - times_.back());
   const size_t step = interval(times_, by_time_, time);
   Table<1>::Place at{step, (time - times_[step]) / (times_[step + 1] - times_[step]), 1};
   for (int i = 0; i < 12; ++i) {
@@ -159,6 +171,98 @@ std::optional<double> ApexTables::after(double a, double dt) const {
     if (std::abs(move) < 1e-9) break;
   }
   return std::exp(clock_.start(step) + at.s / clock_.find(clock_.start(step)).per_x);
+}
+
+std::optional<double> ApexTables::after(double a, double dt) const {
+  if (!clock_ || !(dt >= 0) || !(a > 0)) return std::nullopt;
+  if (a >= last_) {
+    const double speed = speed_at_last_ + tail_rate_ * (a - last_);
+    return a + speed * (tail_rate_ == 0 ? dt : std::expm1(tail_rate_ * dt) / tail_rate_);
+  }
+  if (!(std::log(a) >= clock_.first())) return std::nullopt;
+  return a_of_time(time(a) + dt);
+}
+
+// === Both: points of the surface as they move
+
+/// The a of a level, exact.
+double ApexTables::a_of_level(double level) const {
+  double a = between_steps(level);
+  for (int i = 0; i < 12; ++i) {
+    const auto at = track_.find(a);
+    const double off = track_.value(at, 0) - track_.value(at, 1) - level;
+    const double next = std::clamp(a - off / (track_.slope(at, 0) - track_.slope(at, 1)), 0., track_.last());
+    const bool done = std::abs(next - a) <= 1e-9 * size_;
+    a = next;
+    if (done) break;
+  }
+  return a;
+}
+
+void ApexTables::tabulate_movement(const Profile& profile, const Flow& flow) {
+  if (!track_ || !clock_ || !(tail_rate_ >= 0)) return;
+  const double end = track_.last(), first = std::max(std::exp(clock_.first()), share_of_slow_start * last_);
+  if (!(first < end)) return;
+  std::vector<double> places = {first, last_, end};
+  for (const auto& breaks : {profile.breaks(), flow.rate().breaks()})
+    for (const double a : breaks)
+      if (a > first && a < end) places.push_back(a);
+  for (double a = 2 * first; a < last_; a *= 2) places.push_back(a);  // near the tip time goes with the logarithm of a
+  std::sort(places.begin(), places.end());
+  const double near = 1e-9 * size_;  // two breaks as close as that are one
+  places.erase(std::unique(places.begin(), places.end(), [&](double a, double b) { return b - a < near; }), places.end());
+  places.back() = end;
+  const double speed = speed_at_last_;
+  std::vector<double> levels, times;
+  for (const double a : places) {
+    const auto at = track_.find(a);
+    levels.push_back(track_.value(at, 0) - track_.value(at, 1));
+    times.push_back(time(a));
+  }
+  const auto place = [&](double level, Table<3>::Values& value, Table<3>::Values& slope) {
+    const double a = std::max(first, a_of_level(level));
+    const auto at = track_.find(a);
+    const double dx = track_.slope(at, 0), rise = dx - track_.slope(at, 1);
+    // Time is taken times a speed, so that one tolerance does for all.
+    value = {track_.value(at, 0), a, speed * time(a)};
+    slope = {dx / rise, 1 / rise, speed / (flow.speed(a) * rise)};
+  };
+  const auto course = [&](double t, Table<2>::Values& value, Table<2>::Values& slope) {
+    const double a = std::clamp(a_of_time(t), first, end), v = flow.speed(a);
+    const auto at = track_.find(a);
+    value = {track_.value(at, 0), track_.value(at, 1)};
+    slope = {v * track_.slope(at, 0), v * track_.slope(at, 1)};
+  };
+  place_ = Table<3>(levels, place, movement_tolerance * size_);
+  course_ = Table<2>(times, course, movement_tolerance * size_);
+  if (!place_ || !course_) place_ = {}, course_ = {};
+}
+
+std::optional<ApexTables::Guess> ApexTables::guess(const Vec2& p) const {
+  const double level = p.x() - p.y();
+  if (!place_ || !(level >= place_.first() && level <= place_.last())) return std::nullopt;
+  const auto at = place_.find(level);
+  // As in nearest(): along the profile the level changes by rise_ times the way at least, in space by root 2 times it at most.
+  const double off = std::numbers::sqrt2 * std::abs(p.x() - place_.value(at, 0));
+  return Guess{place_.value(at, 1), std::numbers::sqrt2 * off / rise_ + on_profile * size_};
+}
+
+std::optional<Vec2> ApexTables::facing(const Vec2& p) const {
+  const double level = p.x() - p.y();
+  if (!place_ || !(level >= place_.first() && level <= place_.last())) return std::nullopt;
+  const double dx = place_.slope(place_.find(level), 0);  // and dy is dx - 1, since level is x - y
+  return Vec2(1 - dx, dx);
+}
+
+std::optional<Vec2> ApexTables::moved(const Vec2& p, double dt) const {
+  const double level = p.x() - p.y();
+  if (!place_ || !(level >= place_.first() && level <= place_.last())) return std::nullopt;
+  const auto at = place_.find(level);
+  if (!(std::abs(p.x() - place_.value(at, 0)) <= on_profile * size_)) return std::nullopt;
+  const double time = place_.value(at, 2) / speed_at_last_ + dt;
+  if (!(time >= course_.first() && time <= course_.last())) return std::nullopt;
+  const auto then = course_.find(time);
+  return Vec2(course_.value(then, 0), course_.value(then, 1));
 }
 
 }  // namespace tunica

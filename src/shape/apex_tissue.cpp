@@ -131,10 +131,39 @@ void locate(Tissue& tissue, const Apex& apex) {
   for (Index c = 0; c < tissue.cells(); ++c) locate(theta, a, tissue, c, apex);
 }
 
-void locate_around(Tissue& tissue, Index cell, const Apex& apex) {
-  Column &theta = tissue.column(Kind::cell, "theta"), &a = tissue.column(Kind::cell, "a");
-  locate(theta, a, tissue, cell, apex);
-  for (const Index n : tissue.neighbours(cell)) locate(theta, a, tissue, n, apex);
+namespace {
+
+/// What of a tissue follows a surface.
+struct Followers {
+  Tissue& tissue;
+  const Apex* apex;
+  const Bulges* bulges;
+  Column *theta, *a, *primordium, *closeness;
+
+  Followers(Tissue& t, const Surface& surface)
+      : tissue(t), apex(apex_below(surface)), bulges(dynamic_cast<const Bulges*>(&surface)) {
+    const auto column = [&](const char* name) { return tissue.find_column(Kind::cell, name); };
+    theta = column("theta"), a = column("a"), primordium = column("primordium"), closeness = column("closeness");
+    if (!theta || !a) apex = nullptr;
+    if (!primordium || !closeness) bulges = nullptr;
+  }
+  void update(Index cell) const {
+    if (apex) locate(*theta, *a, tissue, cell, *apex);
+    if (bulges) differentiate(*primordium, *closeness, tissue, cell, *bulges);
+  }
+};
+
+}  // namespace
+
+void follow(Tissue& tissue, const Surface& surface) {
+  const Followers followers(tissue, surface);
+  for (Index c = 0; c < tissue.cells(); ++c) followers.update(c);
+}
+
+void follow(Tissue& tissue, const Surface& surface, const std::vector<Id>& only) {
+  const Followers followers(tissue, surface);
+  for (const Id id : only)
+    if (const Index c = tissue.find(Kind::cell, id); c != none) followers.update(c);
 }
 
 int64_t remove_beyond(Tissue& tissue, const Apex& apex, double a) {
@@ -142,7 +171,7 @@ int64_t remove_beyond(Tissue& tissue, const Apex& apex, double a) {
   if (!tissue.has_geometry()) fail("cells without geometry have no place on an apex");
   std::vector<Id> gone;
   for (Index c = 0; c < tissue.cells(); ++c)
-    if (apex.arc_of(tissue.centroid(c)) > a) gone.push_back(tissue.id(Kind::cell, c));
+    if (apex.is_beyond(tissue.centroid(c), a)) gone.push_back(tissue.id(Kind::cell, c));
   const auto count = static_cast<int64_t>(gone.size());
   remove_cells(tissue, std::move(gone));
   return count;

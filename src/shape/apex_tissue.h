@@ -26,8 +26,10 @@ const Apex* apex_below(const Surface& surface);
 /// Adds columns `theta` (degrees, above -180, at most 180; 0 on the axis) and `a` (arc length from the tip) to the
 /// cells where they are missing, and sets them to the places of the centroids.
 void locate(Tissue& tissue, const Apex& apex);
-/// The same for a cell and its neighbours; the columns are there.
-void locate_around(Tissue& tissue, Index cell, const Apex& apex);
+/// Brings columns `theta` and `a` up to date if the surface is an apex or bulges out of one, and `primordium` and `closeness`
+/// (bulges.h) if it bulges; those that the tissue has. @param only  cells that are looked at; those that are gone are not
+void follow(Tissue& tissue, const Surface& surface);
+void follow(Tissue& tissue, const Surface& surface, const std::vector<Id>& only);
 
 /// Removes the cells whose centroid is farther from the tip than an arc length. @return how many. Errors: a not finite;
 /// no geometry; locked; nothing would be left.

@@ -207,6 +207,7 @@ Vec3 Bulges::base_of_closest(const Vec3& p) const {
 Vec3 Bulges::closest(const Vec3& p) const { return lifted(base_of_closest(p)); }
 
 Vec3 Bulges::normal(const Vec3& p) const {
+  if (now_.flat) return base_->normal(p);
   const Vec3 b = base_->closest(p), outward = base_->normal(b);
   const double scale = scale_at(b);
   if (scale == 0) return outward;
@@ -238,12 +239,14 @@ void differentiate(Tissue& tissue, const Bulges& surface) {
     return tissue.add_column(Kind::cell, std::move(made));
   };
   Column &primordium = column("primordium"), &closeness = column("closeness");
-  for (Index c = 0; c < tissue.cells(); ++c) {
-    double fraction = 1;
-    const Bulges::Bump* bump = surface.bump_at(tissue.centroid(c), &fraction);
-    primordium.values[static_cast<size_t>(c)] = bump ? static_cast<double>(bump->which + 1) : 0;
-    closeness.values[static_cast<size_t>(c)] = bump ? 1 - fraction : 0;
-  }
+  for (Index c = 0; c < tissue.cells(); ++c) differentiate(primordium, closeness, tissue, c, surface);
+}
+
+void differentiate(Column& primordium, Column& closeness, const Tissue& tissue, Index cell, const Bulges& surface) {
+  double fraction = 1;
+  const Bulges::Bump* bump = surface.bump_at(tissue.centroid(cell), &fraction);
+  primordium.values[static_cast<size_t>(cell)] = bump ? static_cast<double>(bump->which + 1) : 0;
+  closeness.values[static_cast<size_t>(cell)] = bump ? 1 - fraction : 0;
 }
 
 }  // namespace tunica

@@ -58,6 +58,7 @@ class Bulges : public Surface {
   /// Of the point above the base point of p: exact for points of the surface, cheap and near enough for those close to
   /// it.
   Vec3 normal(const Vec3& p) const override;
+  Vec3 facing(const Vec3& p) const override { return now_.flat ? base_->facing(p) : normal(p); }
 
   /// The point above a base point, now.
   Vec3 lifted(const Vec3& base_point) const { return lifted(now_, base_point); }
@@ -98,5 +99,7 @@ void grow(Tissue& tissue, Bulges& surface, double dt);
 /// `closeness` (1 at its centre to 0 at its rim and outside: 1 - d/r of 5.10, 5.11) to the cells where they are missing,
 /// and sets them. Errors: no geometry.
 void differentiate(Tissue& tissue, const Bulges& surface);
+/// Sets these columns of one cell.
+void differentiate(Column& primordium, Column& closeness, const Tissue& tissue, Index cell, const Bulges& surface);
 
 }  // namespace tunica

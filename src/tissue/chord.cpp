@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "base/error.h"
 
@@ -107,17 +108,47 @@ struct Best {
   }
 };
 
-double least_on(const Ray& forward, const Ray& backward, double low, double high) {
-  const auto slopes = [&](double angle) {
-    const Vec2 d = direction_of(angle);
+/// Directions of all corners, modulo a half turn, in order; the first again at the end, half a turn on.
+struct Direction {
+  double angle;
+  Vec2 unit;
+};
+std::vector<Direction> corner_directions(const FlatCell& cell) {
+  std::vector<Direction> directions;
+  directions.reserve(cell.size() + 1);
+  for (const Vec2& p : cell.points) {
+    Direction d{std::atan2(p.y(), p.x()), p.normalized()};
+    if (d.angle < 0) d = {d.angle + std::numbers::pi, -d.unit};
+    if (d.angle >= std::numbers::pi) d = {d.angle - std::numbers::pi, -d.unit};
+    directions.push_back(d);
+  }
+  std::sort(directions.begin(), directions.end(), [](const auto& a, const auto& b) { return a.angle < b.angle; });
+  directions.push_back({directions[0].angle + std::numbers::pi, -directions[0].unit});
+  return directions;
+}
+
+/// The length of a chord by its angle, between two angles: convex.
+struct ChordLength {
+  const Ray &forward, &backward;
+  double length(const Vec2& d) const { return forward.at(d)[0] + backward.at(d)[0]; }
+  std::array<double, 3> at(const Vec2& d) const {
     const auto f = forward.at(d), b = backward.at(d);
-    return std::pair(f[1] + b[1], f[2] + b[2]);
-  };
-  if (slopes(low).first >= 0) return low;
-  if (slopes(high).first <= 0) return high;
-  double angle = (low + high) / 2;
+    return {f[0] + b[0], f[1] + b[1], f[2] + b[2]};
+  }
+};
+
+/// The angle of the least length between two directions; none if that is not below `best`.
+std::optional<double> least_on(const ChordLength& chord, const Direction& from, const Direction& to, double best) {
+  const auto start = chord.at(from.unit), end = chord.at(to.unit);
+  if (start[1] >= 0) return from.angle;
+  if (end[1] <= 0) return to.angle;
+  double low = from.angle, high = to.angle;
+  // Where the tangents at both ends meet: the curve is above them.
+  const double meet = (end[0] - start[0] + start[1] * low - end[1] * high) / (start[1] - end[1]);
+  if (start[0] + start[1] * (meet - low) >= best) return std::nullopt;
+  double angle = meet > low && meet < high ? meet : (low + high) / 2;
   for (int i = 0; i < 200 && high - low > 1e-16 * (1 + std::abs(angle)); ++i) {
-    const auto [slope, curvature] = slopes(angle);
+    const auto [length, slope, curvature] = chord.at(direction_of(angle));
     if (slope == 0) break;
     (slope > 0 ? high : low) = angle;
     const double newton = angle - slope / curvature;
@@ -128,34 +159,34 @@ double least_on(const Ray& forward, const Ray& backward, double low, double high
   return angle;
 }
 
-/// Directions of all corners, modulo a half turn, in order; the first again at the end, half a turn on.
-std::vector<double> corner_angles(const FlatCell& cell) {
-  std::vector<double> angles;
-  for (const Vec2& p : cell.points) {
-    double angle = std::atan2(p.y(), p.x());
-    if (angle < 0) angle += std::numbers::pi;
-    if (angle >= std::numbers::pi) angle -= std::numbers::pi;
-    angles.push_back(angle);
+/// The sides that the line through the centroid meets first, ahead and behind; false: there are none.
+bool nearest_hits(const FlatCell& cell, const Vec2& direction, size_t& ahead, size_t& behind) {
+  double least = HUGE_VAL, most = -HUGE_VAL;
+  bool left = cross(direction, cell.from(0)) > 0;
+  for (size_t i = 0; i < cell.size(); ++i) {
+    const bool after = cross(direction, cell.from(i + 1 < cell.size() ? i + 1 : 0)) > 0;  // as in hits_along()
+    if (left != after) {
+      const double r = cross(cell.from(i), cell.along(i)) / cross(direction, cell.along(i));
+      if (r > 0 && r < least) least = r, ahead = i;
+      if (r <= 0 && r > most) most = r, behind = i;
+    }
+    left = after;
   }
-  std::sort(angles.begin(), angles.end());
-  angles.push_back(angles[0] + std::numbers::pi);
-  return angles;
+  return std::isfinite(least) && std::isfinite(most);
 }
 
 Best shortest_through_inside(const FlatCell& cell) {
   Best best;
-  const std::vector<double> angles = corner_angles(cell);
-  for (size_t i = 0; i + 1 < angles.size(); ++i) {
-    const double low = angles[i], high = angles[i + 1];
-    if (high - low < 1e-14) continue;
-    const std::vector<Hit> hits = hits_along(cell, direction_of((low + high) / 2));
-    const auto ahead = std::find_if(hits.begin(), hits.end(), [](const Hit& h) { return h.r > 0; });
-    if (ahead == hits.begin() || ahead == hits.end()) continue;
-    const size_t forward = ahead->side, backward = (ahead - 1)->side;
+  const std::vector<Direction> corners = corner_directions(cell);
+  for (size_t i = 0; i + 1 < corners.size(); ++i) {
+    const Direction &low = corners[i], &high = corners[i + 1];
+    if (high.angle - low.angle < 1e-14) continue;
+    size_t forward = 0, backward = 0;
+    if (!nearest_hits(cell, direction_of((low.angle + high.angle) / 2), forward, backward)) continue;
     const Ray f(cell, forward), b(cell, backward);
-    const double angle = least_on(f, b, low, high);
-    const Vec2 d = direction_of(angle);
-    best.offer(f.at(d)[0] + b.at(d)[0], angle, backward, forward);
+    const ChordLength chord{f, b};
+    if (const auto angle = least_on(chord, low, high, best.length))
+      best.offer(chord.length(direction_of(*angle)), *angle, backward, forward);
   }
   return best;
 }
@@ -218,9 +249,9 @@ void offer_piece(const FlatCell& cell, size_t near, size_t far, double low, doub
 
 Best shortest_from_outside(const FlatCell& cell, double least) {
   Best best;
-  const std::vector<double> angles = corner_angles(cell);
-  for (size_t i = 0; i + 1 < angles.size(); ++i) {
-    const double low = angles[i], high = angles[i + 1];
+  const std::vector<Direction> corners = corner_directions(cell);
+  for (size_t i = 0; i + 1 < corners.size(); ++i) {
+    const double low = corners[i].angle, high = corners[i + 1].angle;
     if (high - low < 1e-14) continue;
     const std::vector<Hit> hits = hits_along(cell, direction_of((low + high) / 2));
     for (size_t k = 0; k + 1 < hits.size(); k += 2)

@@ -35,7 +35,12 @@ struct Mother {
   size_t before(size_t i) const { return (i + size() - 1) % size(); }
   double length(size_t i) const { return (corners[after(i)] - corners[i]).norm(); }
   Vec3 point(size_t i, double at) const { return corners[i] + at * (corners[after(i)] - corners[i]); }
-  bool walls_meet_at(size_t i) const { return degree(tissue, tissue.start(sides[i])) > 2; }
+  /// Whether more than two walls meet where a side starts: no single cell is across both walls of the mother there.
+  bool walls_meet_at(size_t i) const {
+    const Index ahead = tissue.opposite(sides[i]), behind = tissue.opposite(sides[before(i)]);
+    if (ahead == none || behind == none) return ahead != behind;
+    return tissue.next(ahead) != behind;
+  }
 };
 
 struct End {
@@ -119,7 +124,9 @@ std::vector<Vec3> changed(const Tissue& tissue, Index cell, const Mother& mother
 }
 
 /// Whether a polygon is a possible cell that faces outward: where the surface does, or else where a cell faced before.
-bool is_possible(const std::vector<Vec3>& polygon, const Vec3& facing, const Surface* surface) {
+/// @param near  outward somewhere on it
+bool is_possible(const std::vector<Vec3>& polygon, const Vec3& facing, const Vec3& near, const Surface* surface) {
+  if (is_plain_cell(polygon, near)) return true;
   if (!is_possible_cell(polygon)) return false;
   const Vec3 outward = surface && surface->has_outside() ? surface->normal(measure(polygon).centroid) : facing;
   return Frame(polygon).normal.dot(outward) > 0;
@@ -127,14 +134,19 @@ bool is_possible(const std::vector<Vec3>& polygon, const Vec3& facing, const Sur
 
 bool is_possible(const Mother& mother, const Plan& plan, const Surface* surface) {
   if (plan.a.side == plan.b.side) return false;
-  const Vec3 facing = Frame(mother.corners).normal;
+  const Vec3 facing = mother.tissue.normal(mother.cell);
+  const bool outside_known = surface && surface->has_outside();
+  const Vec3 near_a = outside_known ? surface->facing(plan.at_a) : facing;
+  const Vec3 near_b = outside_known ? surface->facing(plan.at_b) : facing;
   for (const auto* daughter : {&plan.piece_a, &plan.piece_b})
-    if (!is_possible(*daughter, facing, surface)) return false;
-  for (const End& end : {plan.a, plan.b}) {
+    if (!is_possible(*daughter, facing, near_a, surface)) return false;
+  const End ends[] = {plan.a, plan.b};
+  for (const End& end : ends) {
     const Index neighbour = mother.tissue.neighbour(mother.sides[end.side]);
     if (neighbour == none) continue;
-    const Vec3 across = mother.tissue.normal(neighbour);
-    if (!is_possible(changed(mother.tissue, neighbour, mother, plan), across, surface)) return false;
+    const Vec3 across = outside_known ? facing : mother.tissue.normal(neighbour);
+    const Vec3& near = !outside_known ? across : &end == &ends[0] ? near_a : near_b;
+    if (!is_possible(changed(mother.tissue, neighbour, mother, plan), across, near, surface)) return false;
   }
   return true;
 }
@@ -279,7 +291,8 @@ bool passed_a_mark(Index before, Index now) {
 }  // namespace
 
 int64_t divide_above(Tissue& tissue, const Threshold& threshold, const DivisionRule& rule,
-                     const DivisionSettings& settings, const Surface* surface, const CancelFlag* cancel) {
+                     const DivisionSettings& settings, const Surface* surface, const CancelFlag* cancel,
+                     std::vector<Id>* changed) {
   check_divisible(tissue, settings);
   if (!(threshold.area > 0) || !std::isfinite(threshold.area))
     fail("the area at which cells divide must be positive, not {}", threshold.area);
@@ -306,8 +319,10 @@ int64_t divide_above(Tissue& tissue, const Threshold& threshold, const DivisionR
       const Outcome outcome = divide_one(tissue, cell, rule, settings, surface);
       ++divisions;
       undivided.remove(mother);
-      for (const Index touched : {outcome.division.first, outcome.division.second, outcome.across_a, outcome.across_b})
+      for (const Index touched : {outcome.division.first, outcome.division.second, outcome.across_a, outcome.across_b}) {
         consider(touched);
+        if (changed && touched != none) changed->push_back(tissue.id(Kind::cell, touched));
+      }
     } catch (const Indivisible& error) {
       undivided.add(mother, error);
     }

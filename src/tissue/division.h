@@ -102,9 +102,10 @@ double threshold_of(const Tissue& tissue, Index cell, const Threshold& threshold
 /// grows past 1000, 1250, 1562, ... cells it is renumbered along a curve (order.h) at the end. Errors: settings out of
 /// range; no geometry; those of divide(), with what is divided by then done, Indivisible only when all others are
 /// divided (Undivided); Cancelled, between two divisions.
+/// @param changed  gets the cells that were made or have another shape now; some may have divided since
 /// @return how many divisions
 int64_t divide_above(Tissue& tissue, const Threshold& threshold, const DivisionRule& rule,
                      const DivisionSettings& settings = {}, const Surface* surface = nullptr,
-                     const CancelFlag* cancel = nullptr);
+                     const CancelFlag* cancel = nullptr, std::vector<Id>* changed = nullptr);
 
 }  // namespace tunica

@@ -52,20 +52,28 @@ Measure measure_fan(std::span<const Vec3> polygon, const Vec3& average) {
 }  // namespace
 
 Measure measure(std::span<const Vec3> polygon) {
+  const size_t n = polygon.size();
   const Vec3 origin = polygon[0];
-  Vec3 sum = Vec3::Zero(), normal = Vec3::Zero(), a = polygon.back() - origin;
+  Vec3 sum = Vec3::Zero();
   double reach = 0;
   bool in_plane = true;
   for (const Vec3& q : polygon) {
     const Vec3 b = q - origin;
-    normal += a.cross(b);
     sum += b;
     reach = std::max(reach, b.cwiseAbs().maxCoeff());
     in_plane = in_plane && q.z() == 0;
+  }
+  const Vec3 average = origin + sum / static_cast<double>(n);
+  if (in_plane) return measure_flat(polygon, average, Vec3::UnitZ());
+  // Were all within 1e-9 of a plane, no four corners could span so much; most cells on a curved surface do.
+  const double volume = (polygon[n / 4] - origin).cross(polygon[n / 2] - origin).dot(polygon[3 * n / 4] - origin);
+  if (std::abs(volume) > 1e-7 * reach * reach * reach) return measure_fan(polygon, average);
+  Vec3 normal = Vec3::Zero(), a = polygon.back() - origin;
+  for (const Vec3& q : polygon) {
+    const Vec3 b = q - origin;
+    normal += a.cross(b);
     a = b;
   }
-  const Vec3 average = origin + sum / static_cast<double>(polygon.size());
-  if (in_plane) return measure_flat(polygon, average, Vec3::UnitZ());
   const double norm = normal.norm();
   if (!(norm > 0)) return measure_fan(polygon, average);
   const Vec3 unit = normal / norm;

@@ -24,35 +24,6 @@ const char* problem_of(const Tissue& tissue, Index cell, const std::vector<Vec3>
   return nullptr;
 }
 
-/// Whether a cell is possible beyond doubt: seen along its normal, which is outward, it turns left at each corner and goes
-/// around once. Most cells are, and this costs a third of looking at all that may be wrong. False: not certain.
-bool is_plain(const Tissue& tissue, Index cell, const Vec3& outward, std::vector<Vec3>& edges) {
-  edges.clear();
-  Vec3 twice = Vec3::Zero(), along = Vec3::Zero();
-  const Index first = tissue.first_side(cell);
-  Index side = first;
-  const Vec3 origin = tissue.position(tissue.start(first));
-  do {
-    const Vec3 end = tissue.position(tissue.end(side)) - origin;
-    twice += along.cross(end);
-    edges.push_back(end - along);
-    along = end;
-    side = tissue.next(side);
-  } while (side != first);
-  if (!(twice.dot(outward) > 0) || !twice.allFinite()) return false;
-  int turns = 0;
-  bool ahead = edges.back().dot(edges[0]) > 0;
-  for (size_t i = 0; i < edges.size(); ++i) {
-    const Vec3& edge = edges[i];
-    const Vec3& next = edges[i + 1 < edges.size() ? i + 1 : 0];
-    if (!(edge.cross(next).dot(twice) > 0)) return false;
-    const bool now = edge.dot(edges[0]) > 0;
-    if (now != ahead) ++turns;
-    ahead = now;
-  }
-  return turns <= 2;  // once around: along any direction there and back
-}
-
 void set_all(Tissue& tissue, const std::vector<Vec3>& positions) {
   for (Index j = 0; j < tissue.junctions(); ++j) tissue.set_position(j, positions[static_cast<size_t>(j)]);
   tissue.refresh_geometry();
@@ -62,15 +33,17 @@ void set_all(Tissue& tissue, const std::vector<Vec3>& positions) {
 /// @param facing  where each cell faced before; unused if there is a surface
 std::string problem_of(Tissue& tissue, const Surface* surface, const std::vector<Vec3>& facing) {
   const LockWhile surface_may_be_a_script(tissue);
-  std::vector<Vec3> edges;
+  std::vector<Vec3> corners;
   for (Index c = 0; c < tissue.cells(); ++c) {
-    const Vec3 place = tissue.centroid(c);
+    const Vec3 place = tissue.centroid(c), &corner = tissue.position(tissue.start(tissue.first_side(c)));
     // A surface cannot be asked about a place that is none.
-    const Vec3 outward = !surface            ? facing[static_cast<size_t>(c)]
-                         : place.allFinite() ? surface->normal(place)
-                                             : Vec3(Vec3::Zero());
-    if (tissue.area(c) > 0 && is_plain(tissue, c, outward, edges)) continue;
-    if (const char* problem = problem_of(tissue, c, tissue.polygon(c), outward))
+    const Vec3 near = !surface             ? facing[static_cast<size_t>(c)]
+                      : corner.allFinite() ? surface->facing(corner)
+                                           : Vec3(Vec3::Zero());
+    tissue.collect_polygon(c, corners);
+    if (tissue.area(c) > 0 && is_plain_cell(corners, near)) continue;
+    const Vec3 outward = !surface ? near : place.allFinite() ? surface->normal(place) : Vec3(Vec3::Zero());
+    if (const char* problem = problem_of(tissue, c, corners, outward))
       return fmt::format("cell {} {} (near {:.4g}, {:.4g}, {:.4g})", tissue.id(Kind::cell, c), problem, place.x(),
                          place.y(), place.z());
   }

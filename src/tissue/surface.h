@@ -18,6 +18,8 @@ class Surface {
   virtual Vec3 onto(const Vec3& p) const { return closest(p); }
   /// Outward unit normal where the surface is closest to a point.
   virtual Vec3 normal(const Vec3& p) const = 0;
+  /// The same of any length, to within some degrees: for what only asks which side is outward.
+  virtual Vec3 facing(const Vec3& p) const { return normal(p); }
   /// Whether it is known which side is outward. If not, normal() is an error, and cells keep facing where they do.
   virtual bool has_outside() const { return true; }
 };

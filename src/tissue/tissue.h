@@ -83,6 +83,7 @@ class Tissue {
   Vec3 centroid(Index cell) const { return {x_->values[cell], y_->values[cell], z_->values[cell]}; }
   Vec3 normal(Index cell) const;  ///< unit, from the polygon's vector area
   std::vector<Vec3> polygon(Index cell) const;
+  void collect_polygon(Index cell, std::vector<Vec3>& points) const;  ///< the same into `points`; with geometry only
 
   // === Columns. Built in: cell area x y z, wall length (with geometry); cell row, column (line, ring, grid, cylinder).
   Column& add_column(Kind kind, Column column);  ///< errors: name taken, not an identifier
@@ -120,7 +121,6 @@ class Tissue {
   std::array<std::vector<std::unique_ptr<Column>>, kinds> columns_;
   void add_geometric_columns();
   Column& own_column(Kind kind, const char* name);
-  void collect_polygon(Index cell, std::vector<Vec3>& points) const;
   void measure_cell(Index cell, std::vector<Vec3>& points);
   void load_kind(ByteReader& in, Kind kind);
   void refresh_after_load();

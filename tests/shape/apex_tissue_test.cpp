@@ -69,8 +69,10 @@ TEST(ApexTissue, KnowsPlaces) {
     EXPECT_NEAR(at(c, "theta"), std::atan2(p.z(), p.x()) * 180 / M_PI, 1e-9);
   }
   const Division d = divide(tissue, 7, errera, {}, apex.get());
-  locate_around(tissue, d.first, *apex);
-  locate_around(tissue, d.second, *apex);
+  std::vector<Id> near_by;
+  for (const Index daughter : {d.first, d.second})
+    for (const Index n : tissue.neighbours(daughter)) near_by.push_back(tissue.id(Kind::cell, n));
+  follow(tissue, *apex, near_by);
   const std::vector<double> near(tissue.column(Kind::cell, "a").values.begin(),
                                  tissue.column(Kind::cell, "a").values.begin() + tissue.cells());
   locate(tissue, *apex);
