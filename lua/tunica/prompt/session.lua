@@ -249,7 +249,7 @@ function session.settle_variables()
   for _, kind in ipairs { "model", "phyllotaxis" } do
     local module = package.loaded["tunica." .. kind]
     for _, my in next, module and module.inside or {} do
-      if my.held and has_typed_rule(my) then my.held = "" end
+      if my.held and has_typed_rule(my) then my.held, my.watch = "", nil end
     end
   end
 end
