@@ -173,7 +173,7 @@ local function verify_now_and_then(my)
   for k = 0, 5 do power = power or n == 2 ^ k end
   if not power then return end
   local agree = true
-  with_rules(my, function() agree = verify(my, my.set, my.machine, n <= 4) end)
+  with_rules(my, function() agree = verify(my, my.set, my.machine, n == 1) end)
   if not agree then with_rules(my, bind) end
 end
 
