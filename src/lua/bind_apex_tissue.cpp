@@ -92,8 +92,9 @@ int remove_far(lua_State* L) {
 }  // namespace
 
 void register_apex_tissue(lua_State* L) {
-  const luaL_Reg functions[] = {{"build_apex_tissue", build},   {"is_on_apex", is_on_apex},    {"locate", locate_all},
-                                {"follow", follow_all}, {"follow_around", follow_some}, {"remove_beyond", remove_far}, {nullptr, nullptr}};
+  const luaL_Reg functions[] = {
+      {"build_apex_tissue", build},   {"is_on_apex", is_on_apex},    {"locate", locate_all}, {"follow", follow_all},
+      {"follow_around", follow_some}, {"remove_beyond", remove_far}, {nullptr, nullptr}};
   add_functions(L, functions);
 }
 

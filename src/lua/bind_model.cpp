@@ -151,14 +151,10 @@ void register_model(lua_State* L) {
   register_rules(L);
   register_machine(L);
   register_phyllotaxis(L);
-  const luaL_Reg functions[] = {{"tissue_save", tissue_save},
-                                {"with_lock", with_lock},
-                                {"tissue_load", tissue_load},
-                                {"tissue_carry", tissue_carry},
-                                {"upvalues", upvalues},
-                                {"same_upvalues", same_upvalues},
-                                {"set_upvalue", set_upvalue},
-                                {nullptr, nullptr}};
+  const luaL_Reg functions[] = {{"tissue_save", tissue_save}, {"with_lock", with_lock},
+                                {"tissue_load", tissue_load}, {"tissue_carry", tissue_carry},
+                                {"upvalues", upvalues},       {"same_upvalues", same_upvalues},
+                                {"set_upvalue", set_upvalue}, {nullptr, nullptr}};
   add_functions(L, functions);
   open_bytecode_functions(L);
 }

@@ -12,9 +12,10 @@ namespace {
 
 constexpr double least_rise = .05;       ///< of x - y along the profile, for which the first guess is good enough
 constexpr double on_profile = 1e-9;      ///< nearer than this, relative to its length, a point is on the profile
-constexpr double nearest_to_tip = 2e-3;   ///< relative to where the rate gets constant: the clock starts there
+constexpr double nearest_to_tip = 2e-3;  ///< relative to where the rate gets constant: the clock starts there
 constexpr size_t buckets_per_step = 4;
-constexpr double share_of_slow_start = 1e-2;  ///< of where the rate gets constant: nearer to the tip time is too steep a function
+constexpr double share_of_slow_start =
+    1e-2;  ///< of the way to a constant rate: nearer to the tip, time by place is too steep
 constexpr double movement_tolerance = 1e-10;  ///< relative to the length of the profile
 
 /// For even steps of a quantity that grows: in which of the given intervals each falls.
@@ -23,7 +24,8 @@ std::vector<size_t> buckets(const std::vector<double>& grows) {
   std::vector<size_t> result(count + 1);
   size_t step = 0;
   for (size_t i = 0; i <= count; ++i) {
-    const double value = grows.front() + (grows.back() - grows.front()) * static_cast<double>(i) / static_cast<double>(count);
+    const double value =
+        grows.front() + (grows.back() - grows.front()) * static_cast<double>(i) / static_cast<double>(count);
     while (step + 2 < grows.size() && grows[step + 1] <= value) ++step;
     result[i] = step;
   }
@@ -125,7 +127,8 @@ std::optional<ApexTables::Place> ApexTables::nearest(const Vec2& p) const {
   const auto a = nearest_arc(p);
   if (!a) return std::nullopt;
   const auto at = track_.find(*a);
-  return Place{*a, {track_.value(at, 0), track_.value(at, 1)}, Vec2(track_.slope(at, 0), track_.slope(at, 1)).normalized()};
+  return Place{
+      *a, {track_.value(at, 0), track_.value(at, 1)}, Vec2(track_.slope(at, 0), track_.slope(at, 1)).normalized()};
 }
 
 // === Growth
@@ -141,8 +144,8 @@ void ApexTables::tabulate(const Flow& flow) {
     if (a > first && a < last_) places.push_back(a);
   places.push_back(last_);
   for (const double a : places) breaks.push_back(std::log(a));
-  // The speed, relative to a, is smooth, and asked for very often: by the integral of da / v, from one step of its table to the
-  // next. (Flow finds the same from the curve itself, a hundred times slower.)
+  // The speed, relative to a, is smooth, and asked for very often: by the integral of da / v, from one step of its
+  // table to the next. (Flow finds the same from the curve itself, a hundred times slower.)
   const Table<1> relative_speed(
       places,
       [&](double a, Table<1>::Values& value, Table<1>::Values& slope) {
@@ -227,14 +230,17 @@ void ApexTables::tabulate_movement(const Profile& profile, const Flow& flow) {
   if (!track_ || !clock_ || !(tail_rate_ >= 0)) return;
   const double end = track_.last(), first = std::max(std::exp(clock_.first()), share_of_slow_start * last_);
   if (!(first < end)) return;
-  std::vector<double> places = {first, last_, end};
+  std::vector<double> places = {first, end};
+  if (last_ > first && last_ < end) places.push_back(last_);
   for (const auto& breaks : {profile.breaks(), flow.rate().breaks()})
     for (const double a : breaks)
       if (a > first && a < end) places.push_back(a);
-  for (double a = 2 * first; a < last_; a *= 2) places.push_back(a);  // near the tip time goes with the logarithm of a
+  for (double a = 2 * first; a < std::min(last_, end); a *= 2)
+    places.push_back(a);  // near the tip time goes with the logarithm of a
   std::sort(places.begin(), places.end());
   const double near = 1e-9 * size_;  // two breaks as close as that are one
-  places.erase(std::unique(places.begin(), places.end(), [&](double a, double b) { return b - a < near; }), places.end());
+  places.erase(std::unique(places.begin(), places.end(), [&](double a, double b) { return b - a < near; }),
+               places.end());
   places.back() = end;
   const double speed = speed_at_last_;
   std::vector<double> levels, times;
@@ -266,7 +272,8 @@ std::optional<ApexTables::Guess> ApexTables::guess(const Vec2& p) const {
   const double level = p.x() - p.y();
   if (!place_ || !(level >= place_.first() && level <= place_.last())) return std::nullopt;
   const auto at = place_.find(level);
-  // As in nearest(): along the profile the level changes by rise_ times the way at least, in space by root 2 times it at most.
+  // As in nearest(): along the profile the level changes by rise_ times the way at least, in space by root 2 times it
+  // at most.
   const double off = std::numbers::sqrt2 * std::abs(p.x() - place_.value(at, 0));
   return Guess{place_.value(at, 1), std::numbers::sqrt2 * off / rise_ + on_profile * size_};
 }

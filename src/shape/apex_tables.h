@@ -10,10 +10,10 @@
 
 namespace tunica {
 
-/// What a growing tissue asks of an apex for each of its points, read from tables in some ten nanoseconds: the profile by
-/// arc length, the nearest place to a point not far from it, and where a place will be. Agrees with Profile to 1e-12 of
-/// its length and with Flow to 1e-10 (moved(): both to 1e-9 of the length); where that cannot be had the answer is none, and
-/// they are to be asked.
+/// What a growing tissue asks of an apex for each of its points, read from tables in some ten nanoseconds: the profile
+/// by arc length, the nearest place to a point not far from it, and where a place will be. Agrees with Profile to 1e-12
+/// of its length and with Flow to 1e-10 (moved(): both to 1e-9 of the length); where that cannot be had the answer is
+/// none, and they are to be asked.
 class ApexTables {
  public:
   /// Made when first asked: an apex without cells needs none.

@@ -26,8 +26,9 @@ const Apex* apex_below(const Surface& surface);
 /// Adds columns `theta` (degrees, above -180, at most 180; 0 on the axis) and `a` (arc length from the tip) to the
 /// cells where they are missing, and sets them to the places of the centroids.
 void locate(Tissue& tissue, const Apex& apex);
-/// Brings columns `theta` and `a` up to date if the surface is an apex or bulges out of one, and `primordium` and `closeness`
-/// (bulges.h) if it bulges; those that the tissue has. @param only  cells that are looked at; those that are gone are not
+/// Brings columns `theta` and `a` up to date if the surface is an apex or bulges out of one, and `primordium` and
+/// `closeness` (bulges.h) if it bulges; those that the tissue has. @param only  cells that are looked at; those that
+/// are gone are not
 void follow(Tissue& tissue, const Surface& surface);
 void follow(Tissue& tissue, const Surface& surface, const std::vector<Id>& only);
 

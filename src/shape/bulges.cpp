@@ -199,7 +199,8 @@ Vec3 Bulges::base_of_closest(const Vec3& p) const {
   const double scale = scale_at(best);
   if (scale > 0 && least > 1e-9 * scale) offer(best, scale);
   for (const Bump& bump : now_.bumps)
-    if (bump.height > 0 && least > 1e-9 * bump.radius && (p - bump.centre).norm() - bump.radius - 1.5 * bump.height < least)
+    if (bump.height > 0 && least > 1e-9 * bump.radius &&
+        (p - bump.centre).norm() - bump.radius - 1.5 * bump.height < least)
       offer(bump.centre, bump.radius);
   return best;
 }

@@ -96,8 +96,8 @@ class Bulges : public Surface {
 void grow(Tissue& tissue, Bulges& surface, double dt);
 
 /// Adds columns `primordium` (number of the one in which the centroid lies most deeply, from 1; 0: outside all) and
-/// `closeness` (1 at its centre to 0 at its rim and outside: 1 - d/r of 5.10, 5.11) to the cells where they are missing,
-/// and sets them. Errors: no geometry.
+/// `closeness` (1 at its centre to 0 at its rim and outside: 1 - d/r of 5.10, 5.11) to the cells where they are
+/// missing, and sets them. Errors: no geometry.
 void differentiate(Tissue& tissue, const Bulges& surface);
 /// Sets these columns of one cell.
 void differentiate(Column& primordium, Column& closeness, const Tissue& tissue, Index cell, const Bulges& surface);

@@ -319,7 +319,8 @@ int64_t divide_above(Tissue& tissue, const Threshold& threshold, const DivisionR
       const Outcome outcome = divide_one(tissue, cell, rule, settings, surface);
       ++divisions;
       undivided.remove(mother);
-      for (const Index touched : {outcome.division.first, outcome.division.second, outcome.across_a, outcome.across_b}) {
+      for (const Index touched :
+           {outcome.division.first, outcome.division.second, outcome.across_a, outcome.across_b}) {
         consider(touched);
         if (changed && touched != none) changed->push_back(tissue.id(Kind::cell, touched));
       }

@@ -125,7 +125,8 @@ bool is_plain_cell(std::span<const Vec3> polygon, const Vec3& outward) {
     along = next;
   }
   const double facing = twice.dot(outward);
-  if (!(facing > 0 && facing * facing > .25 * twice.squaredNorm() * outward.squaredNorm()) || !std::isfinite(facing)) return false;
+  if (!(facing > 0 && facing * facing > .25 * twice.squaredNorm() * outward.squaredNorm()) || !std::isfinite(facing))
+    return false;
   int turns = 0;
   Vec3 edge = polygon[0] - polygon[n - 1];
   const Vec3 first = edge;

@@ -37,9 +37,9 @@ struct Frame {
   std::vector<Vec2> flat(const std::vector<Vec3>& points) const;
 };
 
-/// Whether a polygon in space is a possible cell that faces outward beyond doubt: seen along its normal it turns left at each
-/// corner and goes around once, and the normal is within 60 degrees of `outward`, the surface's anywhere on the cell (any length). Most
-/// cells are, and this costs a third of looking at all that may be wrong. False: not certain.
+/// Whether a polygon in space is a possible cell that faces outward beyond doubt: seen along its normal it turns left
+/// at each corner and goes around once, and the normal is within 60 degrees of `outward`, the surface's anywhere on the
+/// cell (any length). Most cells are, and this costs a third of looking at all that may be wrong. False: not certain.
 bool is_plain_cell(std::span<const Vec3> polygon, const Vec3& outward);
 
 /// Whether a polygon in space is a possible cell: finite, of positive area, not crossing itself in its mean plane.

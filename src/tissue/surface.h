@@ -13,8 +13,8 @@ class Surface {
   virtual Vec3 advance(const Vec3& p, double t, double dt) const = 0;
   /// The point of the surface closest to a point in space.
   virtual Vec3 closest(const Vec3& p) const = 0;
-  /// A point of the surface next to one that is close to it, as a chord between two of its points is: where the closest one
-  /// is dear, not quite that.
+  /// A point of the surface next to one that is close to it, as a chord between two of its points is: where the closest
+  /// one is dear, not quite that.
   virtual Vec3 onto(const Vec3& p) const { return closest(p); }
   /// Outward unit normal where the surface is closest to a point.
   virtual Vec3 normal(const Vec3& p) const = 0;

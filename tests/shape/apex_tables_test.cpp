@@ -19,6 +19,8 @@ std::vector<std::pair<const char*, Apex>> apices() {
   const Curve spline({{0, .25}, {1.7, .25}, {2, .2}, {2.4, .17}, {8, .17}});
   const Curve linear = Curve::linear({{0, .1}, {1, .3}, {3, 0}});
   return {{"cap", Apex(Profile::cap(1.5, 1.3, 9), spline)},
+          {"long growth", Apex(Profile::cap(1.5, 1.3, 5), Curve({{0, .25}, {20, .2}, {40, .17}}))},
+          {"steady", Apex(Profile::cap(1.5, 1.3, 5), Curve({{0, .2}, {20, .2}}))},
           {"dome", Apex(dome(), linear)},
           {"slowing", Apex(dome(), Curve({{0, .2}, {1, 1}, {2, 0}}))},
           {"constant", Apex(dome(), Curve::constant(.3))},
