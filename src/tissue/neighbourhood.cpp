@@ -6,10 +6,9 @@
 
 namespace tunica {
 
-std::vector<Index> sides_at(const Tissue& tissue, Index junction) {
+Index first_side_at(const Tissue& tissue, Index junction) {
   const Index some = tissue.junction_side(junction);
-  std::vector<Index> result;
-  if (some == none) return result;
+  if (some == none) return none;
   // Clockwise as far as the border, if there is one. The bound keeps damaged structures from turning for ever.
   Index first = some;
   for (Index turns = 0; turns < tissue.sides(); ++turns) {
@@ -18,10 +17,17 @@ std::vector<Index> sides_at(const Tissue& tissue, Index junction) {
     first = tissue.next(across);
     if (first == some) break;
   }
+  return first;
+}
+
+std::vector<Index> sides_at(const Tissue& tissue, Index junction) {
+  std::vector<Index> result;
+  const Index first = first_side_at(tissue, junction);
+  if (first == none) return result;
   Index side = first;
   do {
     result.push_back(side);
-    side = tissue.opposite(tissue.previous(side));
+    side = side_after(tissue, side);
   } while (side != none && side != first && result.size() < static_cast<size_t>(tissue.sides()));
   return result;
 }
@@ -29,7 +35,7 @@ std::vector<Index> sides_at(const Tissue& tissue, Index junction) {
 int degree(const Tissue& tissue, Index junction) {
   const std::vector<Index> sides = sides_at(tissue, junction);
   if (sides.empty()) return 0;
-  const bool border = tissue.opposite(tissue.previous(sides.back())) == none;
+  const bool border = side_after(tissue, sides.back()) == none;
   return static_cast<int>(sides.size()) + (border ? 1 : 0);
 }
 

@@ -85,7 +85,7 @@ void TissueEditor::separate_fans() {
     const std::vector<Index> fan = sides_at(t_, junction);
     for (const Index s : fan) seen[static_cast<size_t>(s)] = 1;
     if (taken[static_cast<size_t>(junction)]) {
-      give_own_junction(fan);
+      give_own_junction(fan[0]);
     } else {
       taken[static_cast<size_t>(junction)] = 1;
     }

@@ -214,70 +214,79 @@ void TissueEditor::detach_side(Index side) {
 }
 
 void TissueEditor::remove_wall(Index wall) {
-  std::vector<Index> gone;
   for (int which : {0, 1}) {
     const Index side = t_.wall_side_[2 * wall + which];
     if (side == none) continue;
     detach_side(side);
     t_.wall_side_[2 * wall + which] = none;
-    gone.push_back(side);
+    dead_sides_.push_back(side);
   }
-  erase_all(Kind::side, gone);
+  erase_all(Kind::side, dead_sides_);
   erase(Kind::wall, wall);
 }
 
-void TissueEditor::give_own_junction(const std::vector<Index>& fan) {
-  const Index old = t_.side_[fan[0]].start;
+/// Lets a side, and those after it as far as the border or once around, start at a junction.
+void TissueEditor::set_start(Index first, Index junction) {
+  Index side = first;
+  while (side != none) {
+    t_.side_[side].start = junction;
+    side = side_after(t_, side);
+    if (side == first) break;
+  }
+}
+
+/// The same at a new junction, in the place of the one where they start.
+void TissueEditor::give_own_junction(Index first) {
+  const Index old = t_.side_[first].start;
   const Index own = add_junction(t_.position_[old]);
   for (const auto& column : t_.columns_[at(Kind::junction)])
     column->values[static_cast<size_t>(own)] = column->values[static_cast<size_t>(old)];
-  for (const Index side : fan) t_.side_[side].start = own;
-  t_.junction_side_[own] = fan[0];
+  set_start(first, own);
+  t_.junction_side_[own] = first;
+}
+
+/// Leaves the junction where a side starts to the others there, and parts those before it from those after it if
+/// nothing else holds them together. False: there are no others.
+bool TissueEditor::leave_junction(Index side) {
+  const Index junction = t_.side_[side].start;
+  const Index first = first_side_at(t_, junction), after = side_after(t_, side);
+  if (first == side && (after == none || after == side)) return false;
+  const bool open = t_.opposite(first) == none;
+  if (open && first != side && after != none) give_own_junction(after);
+  t_.junction_side_[junction] = first == side ? after : first;
+  return true;
 }
 
 void TissueEditor::remove_cell(Index cell) {
-  std::vector<Index> sides, dead_walls, dead_junctions, dead_sides;
   const Index first = t_.cell_side_[cell];
-  if (first != none) {
-    Index side = first;
-    do sides.push_back(side);
-    while ((side = t_.side_[side].next) != first);
+  for (Index side = first; side != none;) {
+    dead_sides_.push_back(side);
+    side = t_.side_[side].next == first ? none : t_.side_[side].next;
   }
-  for (const Index side : sides) {
-    const Index junction = t_.side_[side].start;
-    if (junction == none) continue;
-    const std::vector<Index> around = sides_at(t_, junction);
-    const auto here = std::find(around.begin(), around.end(), side);
-    const bool closed = t_.opposite(t_.side_[around.back()].previous) != none;
-    const std::vector<Index> before(around.begin(), here), after(here + 1, around.end());
-    if (before.empty() && after.empty()) {
-      dead_junctions.push_back(junction);
-    } else {
-      if (!closed && !before.empty() && !after.empty()) give_own_junction(after);
-      t_.junction_side_[junction] = before.empty() ? after[0] : before[0];
-    }
-  }
-  dead_sides = sides;
-  for (const Index side : sides) {
-    const Index wall = t_.side_[side].wall, other = t_.opposite(side);
+  for (const Index side : dead_sides_)
+    if (const Index junction = t_.side_[side].start; junction != none && !leave_junction(side))
+      dead_junctions_.push_back(junction);
+  for (size_t i = 0, own = dead_sides_.size(); i < own; ++i) {
+    const Index wall = t_.side_[dead_sides_[i]].wall, other = t_.opposite(dead_sides_[i]);
     t_.wall_side_[2 * wall] = other;
     t_.wall_side_[2 * wall + 1] = none;
     if (other != none && t_.geometry_) continue;
-    dead_walls.push_back(wall);
+    dead_walls_.push_back(wall);
     if (other == none) continue;
     detach_side(other);
-    dead_sides.push_back(other);
+    dead_sides_.push_back(other);
   }
-  erase_all(Kind::side, dead_sides);
-  erase_all(Kind::wall, dead_walls);
-  erase_all(Kind::junction, dead_junctions);
+  erase_all(Kind::side, dead_sides_);
+  erase_all(Kind::wall, dead_walls_);
+  erase_all(Kind::junction, dead_junctions_);
   erase(Kind::cell, cell);
 }
 
-/// From the highest index down, so that no element still to be erased is moved into a hole.
-void TissueEditor::erase_all(Kind kind, std::vector<Index> indices) {
+/// From the highest index down, so that no element still to be erased is moved into a hole. Empties the list.
+void TissueEditor::erase_all(Kind kind, std::vector<Index>& indices) {
   std::sort(indices.begin(), indices.end(), std::greater<>());
   for (const Index index : indices) erase(kind, index);
+  indices.clear();
 }
 
 /// Erases an element that nothing refers to any more; the last element moves into the hole.
@@ -330,7 +339,7 @@ void TissueEditor::move_last_to(Kind kind, Index hole) {
       move_side(last, hole);
       break;
     case Kind::junction:
-      for (const Index side : sides_at(t_, last)) t_.side_[side].start = hole;
+      set_start(first_side_at(t_, last), hole);
       t_.junction_side_[hole] = t_.junction_side_[last];
       t_.position_[hole] = t_.position_[last];
       break;

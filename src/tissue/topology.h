@@ -88,17 +88,23 @@ class TissueEditor {
   void link(Index side, Index following);
   void detach_side(Index side);
   void erase(Kind kind, Index index);
-  void erase_all(Kind kind, std::vector<Index> indices);
+  void erase_all(Kind kind, std::vector<Index>& indices);
   void move_last_to(Kind kind, Index hole);
   void move_side(Index last, Index hole);
-  void give_own_junction(const std::vector<Index>& fan);
+  void set_start(Index first, Index junction);
+  void give_own_junction(Index first);
+  bool leave_junction(Index side);
 
   Tissue& t_;
+  std::vector<Index> dead_sides_, dead_walls_, dead_junctions_;  ///< of a removal; kept for the next one's
 };
 
 /// The sides that start at a junction, counter-clockwise seen from outside, from the border if it is there. In a valid
 /// tissue, all of them.
 std::vector<Index> sides_at(const Tissue& tissue, Index junction);
+/// The first of them; and the one after a side, none at the border.
+Index first_side_at(const Tissue& tissue, Index junction);
+inline Index side_after(const Tissue& tissue, Index side) { return tissue.opposite(tissue.previous(side)); }
 /// Number of walls that meet in a junction.
 int degree(const Tissue& tissue, Index junction);
 /// The side of cell `a` that faces cell `b`, or none.
