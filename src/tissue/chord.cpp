@@ -15,6 +15,7 @@ namespace {
 
 std::vector<Index> sides_of(const Tissue& tissue, Index cell) {
   std::vector<Index> sides;
+  sides.reserve(8);  // room for most
   const Index first = tissue.first_side(cell);
   Index side = first;
   do sides.push_back(side);
@@ -22,23 +23,33 @@ std::vector<Index> sides_of(const Tissue& tissue, Index cell) {
   return sides;
 }
 
+std::vector<Vec3> corners_of(const Tissue& tissue, Index cell) {
+  std::vector<Vec3> corners;
+  corners.reserve(8);
+  tissue.collect_polygon(cell, corners);
+  return corners;
+}
+
 double distance_to_outline(const FlatCell& cell) {
   double least = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < cell.size(); ++i) {
     const Vec2 p = cell.from(i), e = cell.along(i);
     const double at = std::clamp(-p.dot(e) / e.squaredNorm(), 0., 1.);
-    least = std::min(least, (p + at * e).norm());
+    least = std::min(least, (p + at * e).squaredNorm());
   }
-  return least;
+  return std::sqrt(least);
 }
 
 Vec2 direction_of(double angle) { return {std::cos(angle), std::sin(angle)}; }
+double angle_of(const Vec2& d) { return std::atan2(d.y(), d.x()); }
 
 }  // namespace
 
-FlatCell::FlatCell(const Tissue& tissue, Index cell)
-    : id(tissue.id(Kind::cell, cell)), sides(sides_of(tissue, cell)), frame(tissue.polygon(cell)) {
-  points = frame.flat(tissue.polygon(cell));
+FlatCell::FlatCell(const Tissue& tissue, Index cell) : FlatCell(tissue, cell, corners_of(tissue, cell)) {}
+
+FlatCell::FlatCell(const Tissue& tissue, Index cell, const std::vector<Vec3>& corners)
+    : id(tissue.id(Kind::cell, cell)), sides(sides_of(tissue, cell)), frame(corners) {
+  points = frame.flat(corners);
   area = signed_area(points);
   if (!(area > 0)) throw Indivisible(fmt::format("cell {} has no positive area", id));
   const Vec2 centroid = centroid_of(points);
@@ -93,70 +104,82 @@ struct Ray {
   Ray(const FlatCell& cell, size_t side) : k(cross(cell.from(side), cell.along(side))), e(cell.along(side)) {}
   /// {r, r', r''} for the distance's absolute value
   std::array<double, 3> at(const Vec2& d) const {
-    const double g = cross(d, e), slope = -(-d.y() * e.y() - d.x() * e.x()) / g;  // -g'/g, g' = cross((-sin, cos), e)
-    const double r = std::abs(k / g);
+    const double inverse = 1 / cross(d, e), slope = d.dot(e) * inverse;  // -g'/g, g' = cross((-sin, cos), e)
+    const double r = std::abs(k * inverse);
     return {r, r * slope, r * (1 + 2 * slope * slope)};
   }
 };
 
 struct Best {
   double length = std::numeric_limits<double>::infinity();
-  double angle = 0;
+  Vec2 direction = Vec2::UnitX();
   size_t a = 0, b = 0;
-  void offer(double candidate, double at, size_t side_a, size_t side_b) {
-    if (candidate < length) *this = {candidate, at, side_a, side_b};
+  void offer(double candidate, const Vec2& along, size_t side_a, size_t side_b) {
+    if (candidate < length) *this = {candidate, along, side_a, side_b};
   }
 };
 
 /// Directions of all corners, modulo a half turn, in order; the first again at the end, half a turn on.
-struct Direction {
-  double angle;
-  Vec2 unit;
-};
-std::vector<Direction> corner_directions(const FlatCell& cell) {
-  std::vector<Direction> directions;
-  directions.reserve(cell.size() + 1);
+std::vector<Vec2> corner_directions(const FlatCell& cell) {
+  struct Direction {
+    double order;  // grows with the angle, evenly enough to tell directions apart as well as the angle does
+    Vec2 unit;
+  };
+  std::vector<Direction> sorted;
+  sorted.reserve(cell.size());
   for (const Vec2& p : cell.points) {
-    Direction d{std::atan2(p.y(), p.x()), p.normalized()};
-    if (d.angle < 0) d = {d.angle + std::numbers::pi, -d.unit};
-    if (d.angle >= std::numbers::pi) d = {d.angle - std::numbers::pi, -d.unit};
-    directions.push_back(d);
+    if (p.x() == 0 && p.y() == 0) continue;  // a corner in the centroid
+    const Vec2 d = (p.y() > 0 || (p.y() == 0 && p.x() > 0) ? p : Vec2(-p)).normalized();
+    sorted.push_back({-d.x() / (std::abs(d.x()) + d.y()), d});
   }
-  std::sort(directions.begin(), directions.end(), [](const auto& a, const auto& b) { return a.angle < b.angle; });
-  directions.push_back({directions[0].angle + std::numbers::pi, -directions[0].unit});
+  std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.order < b.order; });
+  std::vector<Vec2> directions;
+  directions.reserve(cell.size() + 1);
+  for (const Direction& d : sorted) directions.push_back(d.unit);
+  directions.push_back(-sorted[0].unit);
   return directions;
 }
 
-/// The length of a chord by its angle, between two angles: convex.
+/// Whether two directions, less than half a turn apart, are too close to have a chord between them.
+bool coincide(const Vec2& low, const Vec2& high) { return cross(low, high) < 1e-14 && low.dot(high) > 0; }
+
+/// A direction turned left by the angle of this tangent.
+Vec2 turned(const Vec2& d, double tangent) {
+  return Vec2(d.x() - tangent * d.y(), d.y() + tangent * d.x()).normalized();
+}
+
+/// The length of a chord by its direction, {l, l', l''} by the angle: convex.
 struct ChordLength {
   const Ray &forward, &backward;
-  double length(const Vec2& d) const { return forward.at(d)[0] + backward.at(d)[0]; }
   std::array<double, 3> at(const Vec2& d) const {
     const auto f = forward.at(d), b = backward.at(d);
     return {f[0] + b[0], f[1] + b[1], f[2] + b[2]};
   }
 };
 
-/// The angle of the least length between two directions; none if that is not below `best`.
-std::optional<double> least_on(const ChordLength& chord, const Direction& from, const Direction& to, double best) {
-  const auto start = chord.at(from.unit), end = chord.at(to.unit);
-  if (start[1] >= 0) return from.angle;
-  if (end[1] <= 0) return to.angle;
-  double low = from.angle, high = to.angle;
-  // Where the tangents at both ends meet: the curve is above them.
-  const double meet = (end[0] - start[0] + start[1] * low - end[1] * high) / (start[1] - end[1]);
-  if (start[0] + start[1] * (meet - low) >= best) return std::nullopt;
-  double angle = meet > low && meet < high ? meet : (low + high) / 2;
-  for (int i = 0; i < 200 && high - low > 1e-16 * (1 + std::abs(angle)); ++i) {
-    const auto [length, slope, curvature] = chord.at(direction_of(angle));
-    if (slope == 0) break;
-    (slope > 0 ? high : low) = angle;
-    const double newton = angle - slope / curvature;
-    const double next = newton > low && newton < high ? newton : (low + high) / 2;
-    if (next == angle) break;
-    angle = next;
+/// The direction of the least length between two; none if that is not below `best`.
+std::optional<Vec2> least_on(const ChordLength& chord, Vec2 low, Vec2 high, double best) {
+  const auto start = chord.at(low), end = chord.at(high);
+  if (start[1] >= 0) return low;
+  if (end[1] <= 0) return high;
+  // Where the tangents at both ends meet: the curve is above them, all the more if they are taken to lie farther apart
+  // than they do, by twice the tangent of half the angle.
+  const double width = 2 * cross(low, high) / (1 + low.dot(high));
+  const double meet = (start[0] - end[0] + end[1] * width) / (end[1] - start[1]);
+  if (start[0] + start[1] * meet >= best) return std::nullopt;
+  const auto between = [&](const Vec2& d) {
+    return cross(low, d) > 0 && cross(d, high) > 0 ? d : Vec2((low + high).normalized());
+  };
+  Vec2 d = between(turned(low, meet));
+  for (int i = 0; i < 200; ++i) {
+    const auto [length, slope, curvature] = chord.at(d);
+    const double step = -slope / curvature;
+    const Vec2 newton = turned(d, step);
+    if (std::abs(step) < 1e-8) return newton;  // what is left is the square of it
+    (slope > 0 ? high : low) = d;
+    d = between(newton);
   }
-  return angle;
+  return d;
 }
 
 /// The sides that the line through the centroid meets first, ahead and behind; false: there are none.
@@ -177,16 +200,15 @@ bool nearest_hits(const FlatCell& cell, const Vec2& direction, size_t& ahead, si
 
 Best shortest_through_inside(const FlatCell& cell) {
   Best best;
-  const std::vector<Direction> corners = corner_directions(cell);
+  const std::vector<Vec2> corners = corner_directions(cell);
   for (size_t i = 0; i + 1 < corners.size(); ++i) {
-    const Direction &low = corners[i], &high = corners[i + 1];
-    if (high.angle - low.angle < 1e-14) continue;
+    const Vec2 &low = corners[i], &high = corners[i + 1];
+    if (coincide(low, high)) continue;
     size_t forward = 0, backward = 0;
-    if (!nearest_hits(cell, direction_of((low.angle + high.angle) / 2), forward, backward)) continue;
+    if (!nearest_hits(cell, low + high, forward, backward)) continue;
     const Ray f(cell, forward), b(cell, backward);
     const ChordLength chord{f, b};
-    if (const auto angle = least_on(chord, low, high, best.length))
-      best.offer(chord.length(direction_of(*angle)), *angle, backward, forward);
+    if (const auto d = least_on(chord, low, high, best.length)) best.offer(chord.at(*d)[0], *d, backward, forward);
   }
   return best;
 }
@@ -243,16 +265,17 @@ void offer_piece(const FlatCell& cell, size_t near, size_t far, double low, doub
     const Vec2 direction = direction_of(angle);
     const double share = share_beyond(cell, direction, near, far);
     if (!(share > least - 1e-12 && share < 1 - least + 1e-12)) continue;
-    best.offer(std::abs(b.k / cross(direction, b.e) - a.k / cross(direction, a.e)), angle, near, far);
+    best.offer(std::abs(b.k / cross(direction, b.e) - a.k / cross(direction, a.e)), direction, near, far);
   }
 }
 
 Best shortest_from_outside(const FlatCell& cell, double least) {
   Best best;
-  const std::vector<Direction> corners = corner_directions(cell);
+  const std::vector<Vec2> corners = corner_directions(cell);
   for (size_t i = 0; i + 1 < corners.size(); ++i) {
-    const double low = corners[i].angle, high = corners[i + 1].angle;
-    if (high - low < 1e-14) continue;
+    if (coincide(corners[i], corners[i + 1])) continue;
+    const double low = angle_of(corners[i]);
+    const double high = low + angle_of({corners[i].dot(corners[i + 1]), cross(corners[i], corners[i + 1])});
     const std::vector<Hit> hits = hits_along(cell, direction_of((low + high) / 2));
     for (size_t k = 0; k + 1 < hits.size(); k += 2)
       offer_piece(cell, hits[k].side, hits[k + 1].side, low, high, least, best);
@@ -272,7 +295,7 @@ Chord shortest_chord(const FlatCell& cell) {
   }
   if (!std::isfinite(best.length))
     throw Indivisible(fmt::format("cell {} is so thin that no wall through its centroid can be found", cell.id));
-  return {cut_at(cell, direction_of(best.angle), best.a, best.b), best.length};
+  return {cut_at(cell, best.direction, best.a, best.b), best.length};
 }
 
 Chord chord_along(const FlatCell& cell, const Vec2& direction) {

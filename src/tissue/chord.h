@@ -21,7 +21,10 @@ struct FlatCell {
   FlatCell(const Tissue& tissue, Index cell);
   size_t size() const { return points.size(); }
   const Vec2& from(size_t side) const { return points[side]; }
-  Vec2 along(size_t side) const { return points[(side + 1) % points.size()] - points[side]; }
+  Vec2 along(size_t side) const { return points[side + 1 < size() ? side + 1 : 0] - points[side]; }
+
+ private:
+  FlatCell(const Tissue& tissue, Index cell, const std::vector<Vec3>& corners);
 };
 
 /// Where a line through the origin crosses a side: at r times the direction.
