@@ -20,20 +20,23 @@ namespace {
 /// The mother, as division sees her: sides, where they start, and the place of the wall's ends among them.
 struct Mother {
   const Tissue& tissue;
-  Index cell;
+  Index cell = none;
   std::vector<Index> sides;
   std::vector<Vec3> corners;
 
-  Mother(const Tissue& t, Index c) : tissue(t), cell(c), corners(t.polygon(c)) {
-    const Index first = t.first_side(c);
+  void become(Index c) {
+    cell = c;
+    tissue.collect_polygon(c, corners);
+    sides.clear();
+    const Index first = tissue.first_side(c);
     Index side = first;
     do sides.push_back(side);
-    while ((side = t.next(side)) != first);
+    while ((side = tissue.next(side)) != first);
   }
   size_t size() const { return sides.size(); }
-  size_t after(size_t i) const { return (i + 1) % size(); }
-  size_t before(size_t i) const { return (i + size() - 1) % size(); }
-  double length(size_t i) const { return (corners[after(i)] - corners[i]).norm(); }
+  size_t after(size_t i) const { return i + 1 < size() ? i + 1 : 0; }
+  size_t before(size_t i) const { return (i > 0 ? i : size()) - 1; }
+  double length(size_t i) const { return tissue.length(tissue.wall_of(sides[i])); }
   Vec3 point(size_t i, double at) const { return corners[i] + at * (corners[after(i)] - corners[i]); }
   /// Whether more than two walls meet where a side starts: no single cell is across both walls of the mother there.
   bool walls_meet_at(size_t i) const {
@@ -85,70 +88,76 @@ struct Plan {
   End a, b;
   Vec3 at_a, at_b;
   std::vector<Vec3> piece_a, piece_b;  ///< of the mother: from end a counter-clockwise to end b, and from b to a
+  std::vector<Vec3> across;            ///< a neighbour, with the new junctions put in
 };
 
-std::vector<Vec3> piece(const Mother& mother, const End& from, const Vec3& start, const End& to, const Vec3& stop) {
-  std::vector<Vec3> points{start};
+/// A mother and the plan for her. Made once for many divisions, it keeps the room of its lists.
+struct Work {
+  Mother mother;
+  Plan plan;
+};
+
+void set_piece(std::vector<Vec3>& points, const Mother& mother, const End& from, const Vec3& start, const End& to,
+               const Vec3& stop) {
+  points.assign(1, start);
   for (size_t i = from.side; i != to.side;) points.push_back(mother.corners[i = mother.after(i)]);
   points.push_back(stop);
-  return points;
 }
 
 bool on_border(const Mother& mother, const End& end) { return mother.tissue.opposite(mother.sides[end.side]) == none; }
 
-Plan make_plan(const Mother& mother, End a, End b, double gap, double pinch, const Surface* surface) {
-  Plan plan;
+void make_plan(Plan& plan, const Mother& mother, End a, End b, double gap, double pinch, const Surface* surface) {
   plan.a = displace(mother, a, gap);
   plan.b = displace(mother, b, gap);
   const auto onto = [&](const Vec3& p) { return surface ? surface->onto(p) : p; };
   const Vec3 p = onto(mother.point(plan.a.side, plan.a.at)), q = onto(mother.point(plan.b.side, plan.b.at));
   plan.at_a = on_border(mother, plan.a) ? p : onto(p + pinch * (q - p));
   plan.at_b = on_border(mother, plan.b) ? q : onto(q + pinch * (p - q));
-  plan.piece_a = piece(mother, plan.a, plan.at_a, plan.b, plan.at_b);
-  plan.piece_b = piece(mother, plan.b, plan.at_b, plan.a, plan.at_a);
-  return plan;
+  set_piece(plan.piece_a, mother, plan.a, plan.at_a, plan.b, plan.at_b);
+  set_piece(plan.piece_b, mother, plan.b, plan.at_b, plan.a, plan.at_a);
 }
 
-/// The polygon of a neighbour with the new junctions put in.
-std::vector<Vec3> changed(const Tissue& tissue, Index cell, const Mother& mother, const Plan& plan) {
-  std::vector<Vec3> points;
-  const Index first = tissue.first_side(cell);
+void set_across(Plan& plan, const Mother& mother, Index neighbour) {
+  const Tissue& tissue = mother.tissue;
+  plan.across.clear();
+  const Index first = tissue.first_side(neighbour);
   Index side = first;
   do {
-    points.push_back(tissue.position(tissue.start(side)));
-    if (tissue.opposite(side) == mother.sides[plan.a.side]) points.push_back(plan.at_a);
-    if (tissue.opposite(side) == mother.sides[plan.b.side]) points.push_back(plan.at_b);
+    plan.across.push_back(tissue.position(tissue.start(side)));
+    const Index opposite = tissue.opposite(side);
+    if (opposite == mother.sides[plan.a.side]) plan.across.push_back(plan.at_a);
+    if (opposite == mother.sides[plan.b.side]) plan.across.push_back(plan.at_b);
     side = tissue.next(side);
   } while (side != first);
-  return points;
 }
 
-/// Whether a polygon is a possible cell that faces outward: where the surface does, or else where a cell faced before.
-/// @param near  outward somewhere on it
-bool is_possible(const std::vector<Vec3>& polygon, const Vec3& facing, const Vec3& near, const Surface* surface) {
+/// Whether a polygon is a possible cell that faces outward.
+/// @param near     outward somewhere on it
+/// @param outside  the surface, if it knows its outside; or else outward is `near`
+bool is_possible(const std::vector<Vec3>& polygon, const Vec3& near, const Surface* outside) {
   if (is_plain_cell(polygon, near)) return true;
   if (!is_possible_cell(polygon)) return false;
-  const Vec3 outward = surface && surface->has_outside() ? surface->normal(measure(polygon).centroid) : facing;
+  const Vec3 outward = outside ? outside->normal(measure(polygon).centroid) : near;
   return Frame(polygon).normal.dot(outward) > 0;
 }
 
-bool is_possible(const Mother& mother, const Plan& plan, const Surface* surface) {
+bool is_possible(const Mother& mother, Plan& plan, const Surface* surface) {
   if (plan.a.side == plan.b.side) return false;
-  const Vec3 facing = mother.tissue.normal(mother.cell);
-  const bool outside_known = surface && surface->has_outside();
-  const Vec3 near_a = outside_known ? surface->facing(plan.at_a) : facing;
-  const Vec3 near_b = outside_known ? surface->facing(plan.at_b) : facing;
-  for (const auto* daughter : {&plan.piece_a, &plan.piece_b})
-    if (!is_possible(*daughter, facing, near_a, surface)) return false;
-  const End ends[] = {plan.a, plan.b};
-  for (const End& end : ends) {
-    const Index neighbour = mother.tissue.neighbour(mother.sides[end.side]);
-    if (neighbour == none) continue;
-    const Vec3 across = outside_known ? facing : mother.tissue.normal(neighbour);
-    const Vec3& near = !outside_known ? across : &end == &ends[0] ? near_a : near_b;
-    if (!is_possible(changed(mother.tissue, neighbour, mother, plan), across, near, surface)) return false;
-  }
-  return true;
+  const Tissue& tissue = mother.tissue;
+  const Surface* outside = surface && surface->has_outside() ? surface : nullptr;
+  // Outward is where the surface faces, or else where the cell did before.
+  const auto outward = [&](Index cell, const Vec3& place) {
+    return outside ? outside->facing(place) : tissue.normal(cell);
+  };
+  const auto possible_across = [&](const End& end, const Vec3& place) {
+    const Index neighbour = tissue.neighbour(mother.sides[end.side]);
+    if (neighbour == none) return true;
+    set_across(plan, mother, neighbour);
+    return is_possible(plan.across, outward(neighbour, place), outside);
+  };
+  const Vec3 near = outward(mother.cell, plan.at_a);
+  return is_possible(plan.piece_a, near, outside) && is_possible(plan.piece_b, near, outside) &&
+         possible_across(plan.a, plan.at_a) && possible_across(plan.b, plan.at_b);
 }
 
 End end_of(const Mother& mother, Index side, double at) {
@@ -158,14 +167,15 @@ End end_of(const Mother& mother, Index side, double at) {
   return {static_cast<size_t>(found - mother.sides.begin()), at};
 }
 
-Plan find_plan(const Mother& mother, const Cut& cut, const DivisionSettings& settings, const Surface* surface) {
+void find_plan(Work& work, const Cut& cut, const DivisionSettings& settings, const Surface* surface) {
+  const Mother& mother = work.mother;
   const End a = end_of(mother, cut.side_a, cut.at_a), b = end_of(mother, cut.side_b, cut.at_b);
   const double relative = settings.gap_fraction * std::sqrt(mother.tissue.area(mother.cell));
   const double gap = settings.gap >= 0 ? settings.gap : relative;
   const std::pair<double, double> tries[] = {{gap, settings.pinch}, {gap, 0}, {gap / 4, 0}, {0, 0}};
   for (const auto& [try_gap, try_pinch] : tries) {
-    Plan plan = make_plan(mother, a, b, try_gap, try_pinch, surface);
-    if (is_possible(mother, plan, surface)) return plan;
+    make_plan(work.plan, mother, a, b, try_gap, try_pinch, surface);
+    if (is_possible(mother, work.plan, surface)) return;
   }
   throw Indivisible(
       fmt::format("cell {} cannot be divided there: a daughter or a neighbour would have no area or cross itself",
@@ -175,13 +185,30 @@ Plan find_plan(const Mother& mother, const Cut& cut, const DivisionSettings& set
 /// What the parts of a wall and of its sides get when a junction at `p` splits it.
 std::array<Parts, 3> legacy_of_wall(Tissue& tissue, Index wall, const Vec3& p) {
   const Index side0 = tissue.wall_side(wall, 0), side1 = tissue.wall_side(wall, 1);
-  const double first = (p - tissue.position(tissue.start(side0))).norm();
-  const double second = (p - tissue.position(tissue.end(side0))).norm();
-  const double share = first / (first + second);
+  double share = 0;
+  if (needs_share(tissue, Kind::wall) || needs_share(tissue, Kind::side)) {
+    const double first = (p - tissue.position(tissue.start(side0))).norm();
+    const double second = (p - tissue.position(tissue.end(side0))).norm();
+    share = first / (first + second);
+  }
   std::array<Parts, 3> legacy{
       parts_of(tissue, Kind::wall, wall, share), parts_of(tissue, Kind::side, side0, share), {}};
   if (side1 != none) legacy[2] = parts_of(tissue, Kind::side, side1, 1 - share);
   return legacy;
+}
+
+/// The first daughter's share of the area, if a column asks for it.
+double share_of_first(const Tissue& tissue, const Mother& mother, const Plan& plan) {
+  if (!needs_share(tissue, Kind::cell)) return 0;
+  // split_cell calls the daughter that keeps first_side the first: of the pieces a-b and b-a, the one it is in. Side a
+  // itself ends up half in each; its first half, with its number, is in piece b-a.
+  bool first_is_a = false;
+  for (size_t i = plan.a.side; i != plan.b.side;) {
+    i = mother.after(i);
+    first_is_a = first_is_a || i == 0;
+  }
+  const double area_a = measure(plan.piece_a).area, area_b = measure(plan.piece_b).area;
+  return (first_is_a ? area_a : area_b) / (area_a + area_b);
 }
 
 void check(const DivisionSettings& settings) {
@@ -196,49 +223,42 @@ void check(const DivisionSettings& settings) {
 struct Outcome {
   Division division;
   Index across_a, across_b;
+  std::array<Index, 4> touched() const { return {division.first, division.second, across_a, across_b}; }
 };
 
-Outcome perform(Tissue& tissue, const Mother& mother, const Plan& plan) {
+Outcome perform(Tissue& tissue, const Work& work) {
+  const auto& [mother, plan] = work;
   // All that can fail comes first: then the structure changes.
   const Index side_a = mother.sides[plan.a.side], side_b = mother.sides[plan.b.side];
   const Index wall_a = tissue.wall_of(side_a), wall_b = tissue.wall_of(side_b);
   const Index across_a = tissue.neighbour(side_a), across_b = tissue.neighbour(side_b);
-  // split_cell calls the daughter that keeps first_side the first: of the pieces a-b and b-a, the one it is in. Side a
-  // itself ends up half in each; its first half, with its number, is in piece b-a.
-  bool first_is_a = false;
-  for (size_t i = plan.a.side; i != plan.b.side;) {
-    i = mother.after(i);
-    first_is_a = first_is_a || i == 0;
-  }
-  const double area_a = measure(plan.piece_a).area, area_b = measure(plan.piece_b).area;
-  const double share = (first_is_a ? area_a : area_b) / (area_a + area_b);
   const auto of_a = legacy_of_wall(tissue, wall_a, plan.at_a), of_b = legacy_of_wall(tissue, wall_b, plan.at_b);
-  const Parts of_cell = parts_of(tissue, Kind::cell, mother.cell, share);
+  const Parts of_cell = parts_of(tissue, Kind::cell, mother.cell, share_of_first(tissue, mother, plan));
   TissueEditor editor(tissue);
   editor.require_room(Kind::side, 10);
   editor.split_wall(wall_a, plan.at_a, of_a);
   editor.split_wall(wall_b, plan.at_b, of_b);
   const Index wall = editor.split_cell(tissue.next(side_a), tissue.next(side_b), of_cell);
   const Division division{mother.cell, tissue.cell_of(tissue.wall_side(wall, 1)), wall};
-  std::vector<Index> touched{division.first, division.second};
-  for (const Index cell : {across_a, across_b})
-    if (cell != none) touched.push_back(cell);
-  for (const Index cell : touched) tissue.refresh_geometry(cell);
+  const Outcome outcome{division, across_a, across_b};
+  editor.measure(outcome.touched());
 #ifdef TUNICA_VALIDATE
+  std::vector<Index> touched;
+  for (const Index cell : outcome.touched())
+    if (cell != none) touched.push_back(cell);
   validate_near(tissue, touched);
 #endif
-  return {division, across_a, across_b};
+  return outcome;
 }
 
-Outcome divide_one(Tissue& tissue, Index cell, const DivisionRule& rule, const DivisionSettings& settings,
+Outcome divide_one(Work& work, Tissue& tissue, Index cell, const DivisionRule& rule, const DivisionSettings& settings,
                    const Surface* surface) {
-  const Mother mother(tissue, cell);
-  Plan plan;
+  work.mother.become(cell);
   {
     const LockWhile rule_and_surface_may_be_scripts(tissue);
-    plan = find_plan(mother, rule(tissue, cell), settings, surface);
+    find_plan(work, rule(tissue, cell), settings, surface);
   }
-  return perform(tissue, mother, plan);
+  return perform(tissue, work);
 }
 
 void check_divisible(const Tissue& tissue, const DivisionSettings& settings) {
@@ -257,7 +277,8 @@ Division divide(Tissue& tissue, Index cell, const Cut& cut, const DivisionSettin
 Division divide(Tissue& tissue, Index cell, const DivisionRule& rule, const DivisionSettings& settings,
                 const Surface* surface) {
   check_divisible(tissue, settings);
-  return divide_one(tissue, cell, rule, settings, surface).division;
+  Work work{{tissue}, {}};
+  return divide_one(work, tissue, cell, rule, settings, surface).division;
 }
 
 void Undivided::report(int64_t divisions) const {
@@ -308,6 +329,7 @@ int64_t divide_above(Tissue& tissue, const Threshold& threshold, const DivisionR
   const Index before = tissue.cells();
   int64_t divisions = 0;
   Undivided undivided;
+  Work work{{tissue}, {}};
   while (!due.empty() && (threshold.most_cells < 0 || tissue.cells() < threshold.most_cells)) {
     poll(cancel);
     const Index cell = tissue.find(Kind::cell, due.top());
@@ -316,11 +338,10 @@ int64_t divide_above(Tissue& tissue, const Threshold& threshold, const DivisionR
     if (cell == none || !(tissue.area(cell) > threshold_of(tissue, cell, threshold))) continue;
     const Id mother = tissue.id(Kind::cell, cell);
     try {
-      const Outcome outcome = divide_one(tissue, cell, rule, settings, surface);
+      const Outcome outcome = divide_one(work, tissue, cell, rule, settings, surface);
       ++divisions;
       undivided.remove(mother);
-      for (const Index touched :
-           {outcome.division.first, outcome.division.second, outcome.across_a, outcome.across_b}) {
+      for (const Index touched : outcome.touched()) {
         consider(touched);
         if (changed && touched != none) changed->push_back(tissue.id(Kind::cell, touched));
       }

@@ -37,6 +37,13 @@ Parts parts_of(Tissue& tissue, Kind kind, Index element, double share) {
   return parts;
 }
 
+bool needs_share(const Tissue& tissue, Kind kind) {
+  const auto& columns = tissue.columns(kind);
+  return std::any_of(columns.begin(), columns.end(), [](const auto& column) {
+    return !column->geometric && (column->inherit == Inherit::split || column->inherit == Inherit::rule);
+  });
+}
+
 TissueEditor::TissueEditor(Tissue& tissue) : t_(tissue) {
   if (t_.locked_) fail("the structure of a tissue cannot change while rules run");
   ++t_.topology_version_;
@@ -158,6 +165,8 @@ Index TissueEditor::split_wall(Index wall, const Vec3& position, const std::arra
   link(side0, tail0);
   t_.wall_side_[2 * wall2] = tail0;
   t_.junction_side_[junction] = tail0;
+  measure_wall(wall);
+  measure_wall(wall2);
   if (side1 == none) return junction;
   const Index tail1 = split_off(Kind::side, side1, legacy[2]);  // runs with the wall's first part
   t_.side_[tail1].cell = t_.side_[side1].cell;
@@ -197,7 +206,20 @@ Index TissueEditor::split_cell(Index side_a, Index side_b, const Parts& legacy) 
     t_.side_[side].cell = daughter;
     if (side == side1) break;
   }
+  measure_wall(wall);
   return wall;
+}
+
+void TissueEditor::measure_wall(Index wall) {
+  const Index side = t_.wall_side_[2 * wall];
+  t_.length_->values[static_cast<size_t>(wall)] = (t_.position(t_.end(side)) - t_.position(t_.start(side))).norm();
+}
+
+void TissueEditor::measure(std::span<const Index> cells) {
+  std::vector<Vec3> corners;
+  corners.reserve(16);
+  for (const Index cell : cells)
+    if (cell != none) t_.measure_cell(cell, corners);
 }
 
 // === Removing

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -29,6 +30,8 @@ using Parts = std::vector<std::pair<double, double>>;
 /// @param share  the first part's share of area (cells) or length (walls, sides), in 0..1
 /// Errors: what a rule throws; a rule that is missing (after loading) or gives something that is not a number.
 Parts parts_of(Tissue& tissue, Kind kind, Index element, double share);
+/// Whether any column of this kind makes use of the share.
+bool needs_share(const Tissue& tissue, Kind kind);
 
 /// The only code that changes the structure of a tissue. Each operation leaves columns, identities, fates and versions
 /// right; operations that leave the complex half-built (add, link) are for builders, which finish it.
@@ -65,6 +68,8 @@ class TissueEditor {
   /// @param legacy  what the daughters get, in this order
   /// @return the new wall; its side [0] is in the first daughter, side [1] in the second
   Index split_cell(Index side_a, Index side_b, const Parts& legacy);
+  /// Measures cells (some may be none) that were split, or got a junction. Their new walls are measured already.
+  void measure(std::span<const Index> cells);
 
   // === Removing
   /// Removes a cell, its sides, the walls that no other cell has and the junctions that no side starts at. Walls that
@@ -85,6 +90,7 @@ class TissueEditor {
   Index append(Kind kind);
   void renew(Kind kind, Index index);
   Index split_off(Kind kind, Index index, const Parts& legacy);
+  void measure_wall(Index wall);
   void link(Index side, Index following);
   void detach_side(Index side);
   void erase(Kind kind, Index index);
