@@ -40,6 +40,16 @@ double distance_to_outline(const FlatCell& cell) {
   return std::sqrt(least);
 }
 
+/// Whether all sides run counter-clockwise around the centroid, clear of it.
+bool is_star_shaped(const FlatCell& cell) {
+  for (size_t i = 0; i < cell.size(); ++i) {
+    const Vec2 e = cell.along(i);
+    const double k = cross(cell.from(i), e);
+    if (!(k > 0 && k * k > 1e-18 * cell.area * e.squaredNorm())) return false;
+  }
+  return true;
+}
+
 Vec2 direction_of(double angle) { return {std::cos(angle), std::sin(angle)}; }
 double angle_of(const Vec2& d) { return std::atan2(d.y(), d.x()); }
 
@@ -55,7 +65,9 @@ FlatCell::FlatCell(const Tissue& tissue, Index cell, const std::vector<Vec3>& co
   const Vec2 centroid = centroid_of(points);
   frame.origin += centroid.x() * frame.u + centroid.y() * frame.v;
   for (Vec2& p : points) p -= centroid;
-  centroid_inside = contains(points, Vec2::Zero()) && distance_to_outline(*this) > 1e-9 * std::sqrt(area);
+  star_shaped = is_star_shaped(*this);
+  centroid_inside =
+      star_shaped || contains(points, Vec2::Zero()) && distance_to_outline(*this) > 1e-9 * std::sqrt(area);
 }
 
 std::vector<Hit> hits_along(const FlatCell& cell, const Vec2& direction) {
@@ -119,24 +131,28 @@ struct Best {
   }
 };
 
-/// Directions of all corners, modulo a half turn, in order; the first again at the end, half a turn on.
-std::vector<Vec2> corner_directions(const FlatCell& cell) {
-  struct Direction {
-    double order;  // grows with the angle, evenly enough to tell directions apart as well as the angle does
-    Vec2 unit;
-  };
-  std::vector<Direction> sorted;
-  sorted.reserve(cell.size());
-  for (const Vec2& p : cell.points) {
-    if (p.x() == 0 && p.y() == 0) continue;  // a corner in the centroid
-    const Vec2 d = (p.y() > 0 || (p.y() == 0 && p.x() > 0) ? p : Vec2(-p)).normalized();
-    sorted.push_back({-d.x() / (std::abs(d.x()) + d.y()), d});
-  }
-  std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.order < b.order; });
-  std::vector<Vec2> directions;
+/// The direction to a corner, or away from it if it is not in the upper half plane.
+struct Direction {
+  double order;  ///< grows with the angle, evenly enough to tell directions apart as well as the angle does
+  Vec2 unit;
+  size_t corner;
+  bool ahead;  ///< to it
+};
+
+/// Directions of all corners in order; the first again at the end, half a turn on.
+std::vector<Direction> corner_directions(const FlatCell& cell) {
+  std::vector<Direction> directions;
   directions.reserve(cell.size() + 1);
-  for (const Direction& d : sorted) directions.push_back(d.unit);
-  directions.push_back(-sorted[0].unit);
+  for (size_t i = 0; i < cell.size(); ++i) {
+    const Vec2& p = cell.from(i);
+    if (p.x() == 0 && p.y() == 0) continue;  // a corner in the centroid
+    const bool ahead = p.y() > 0 || (p.y() == 0 && p.x() > 0);
+    const Vec2 d = (ahead ? p : Vec2(-p)).normalized();
+    directions.push_back({-d.x() / (std::abs(d.x()) + d.y()), d, i, ahead});
+  }
+  std::sort(directions.begin(), directions.end(), [](const auto& a, const auto& b) { return a.order < b.order; });
+  const Direction& first = directions[0];
+  directions.push_back({first.order + 2, -first.unit, first.corner, !first.ahead});
   return directions;
 }
 
@@ -200,12 +216,16 @@ bool nearest_hits(const FlatCell& cell, const Vec2& direction, size_t& ahead, si
 
 Best shortest_through_inside(const FlatCell& cell) {
   Best best;
-  const std::vector<Vec2> corners = corner_directions(cell);
+  const std::vector<Direction> corners = corner_directions(cell);
+  size_t forward = 0, backward = 0;
+  bool known = false;
   for (size_t i = 0; i + 1 < corners.size(); ++i) {
-    const Vec2 &low = corners[i], &high = corners[i + 1];
+    const Vec2 &low = corners[i].unit, &high = corners[i + 1].unit;
+    // In a star the line leaves one side for the next where it passes a corner.
+    if (known) (corners[i].ahead ? forward : backward) = corners[i].corner;
     if (coincide(low, high)) continue;
-    size_t forward = 0, backward = 0;
-    if (!nearest_hits(cell, low + high, forward, backward)) continue;
+    if (!known && !nearest_hits(cell, low + high, forward, backward)) continue;
+    known = cell.star_shaped;
     const Ray f(cell, forward), b(cell, backward);
     const ChordLength chord{f, b};
     if (const auto d = least_on(chord, low, high, best.length)) best.offer(chord.at(*d)[0], *d, backward, forward);
@@ -271,11 +291,11 @@ void offer_piece(const FlatCell& cell, size_t near, size_t far, double low, doub
 
 Best shortest_from_outside(const FlatCell& cell, double least) {
   Best best;
-  const std::vector<Vec2> corners = corner_directions(cell);
+  const std::vector<Direction> corners = corner_directions(cell);
   for (size_t i = 0; i + 1 < corners.size(); ++i) {
-    if (coincide(corners[i], corners[i + 1])) continue;
-    const double low = angle_of(corners[i]);
-    const double high = low + angle_of({corners[i].dot(corners[i + 1]), cross(corners[i], corners[i + 1])});
+    const Vec2 &from = corners[i].unit, &to = corners[i + 1].unit;
+    if (coincide(from, to)) continue;
+    const double low = angle_of(from), high = low + angle_of({from.dot(to), cross(from, to)});
     const std::vector<Hit> hits = hits_along(cell, direction_of((low + high) / 2));
     for (size_t k = 0; k + 1 < hits.size(); k += 2)
       offer_piece(cell, hits[k].side, hits[k + 1].side, low, high, least, best);

@@ -15,6 +15,7 @@ struct FlatCell {
   std::vector<Vec2> points;  ///< where sides[i] starts
   Frame frame;
   double area;
+  bool star_shaped;      ///< seen from the centroid, the outline runs ahead all around
   bool centroid_inside;  ///< properly: not on the outline
 
   /// Errors: Indivisible, the cell has no positive area.
