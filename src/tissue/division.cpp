@@ -87,8 +87,8 @@ End displace(const Mother& mother, End end, double gap) {
 struct Plan {
   End a, b;
   Vec3 at_a, at_b;
-  std::vector<Vec3> piece_a, piece_b;  ///< of the mother: from end a counter-clockwise to end b, and from b to a
-  std::vector<Vec3> across;            ///< a neighbour, with the new junctions put in
+  std::vector<Vec3> piece_a, piece_b;    ///< of the mother: from end a counter-clockwise to end b, and from b to a
+  std::vector<Vec3> across_a, across_b;  ///< the neighbours at the ends (if any), with the new junctions put in
 };
 
 /// A mother and the plan for her. Made once for many divisions, it keeps the room of its lists.
@@ -117,16 +117,16 @@ void make_plan(Plan& plan, const Mother& mother, End a, End b, double gap, doubl
   set_piece(plan.piece_b, mother, plan.b, plan.at_b, plan.a, plan.at_a);
 }
 
-void set_across(Plan& plan, const Mother& mother, Index neighbour) {
+void set_across(std::vector<Vec3>& points, const Mother& mother, const Plan& plan, Index neighbour) {
   const Tissue& tissue = mother.tissue;
-  plan.across.clear();
+  points.clear();
   const Index first = tissue.first_side(neighbour);
   Index side = first;
   do {
-    plan.across.push_back(tissue.position(tissue.start(side)));
+    points.push_back(tissue.position(tissue.start(side)));
     const Index opposite = tissue.opposite(side);
-    if (opposite == mother.sides[plan.a.side]) plan.across.push_back(plan.at_a);
-    if (opposite == mother.sides[plan.b.side]) plan.across.push_back(plan.at_b);
+    if (opposite == mother.sides[plan.a.side]) points.push_back(plan.at_a);
+    if (opposite == mother.sides[plan.b.side]) points.push_back(plan.at_b);
     side = tissue.next(side);
   } while (side != first);
 }
@@ -149,15 +149,15 @@ bool is_possible(const Mother& mother, Plan& plan, const Surface* surface) {
   const auto outward = [&](Index cell, const Vec3& place) {
     return outside ? outside->facing(place) : tissue.normal(cell);
   };
-  const auto possible_across = [&](const End& end, const Vec3& place) {
+  const auto possible_across = [&](const End& end, const Vec3& place, std::vector<Vec3>& across) {
     const Index neighbour = tissue.neighbour(mother.sides[end.side]);
     if (neighbour == none) return true;
-    set_across(plan, mother, neighbour);
-    return is_possible(plan.across, outward(neighbour, place), outside);
+    set_across(across, mother, plan, neighbour);
+    return is_possible(across, outward(neighbour, place), outside);
   };
   const Vec3 near = outward(mother.cell, plan.at_a);
   return is_possible(plan.piece_a, near, outside) && is_possible(plan.piece_b, near, outside) &&
-         possible_across(plan.a, plan.at_a) && possible_across(plan.b, plan.at_b);
+         possible_across(plan.a, plan.at_a, plan.across_a) && possible_across(plan.b, plan.at_b, plan.across_b);
 }
 
 End end_of(const Mother& mother, Index side, double at) {
@@ -185,30 +185,24 @@ void find_plan(Work& work, const Cut& cut, const DivisionSettings& settings, con
 /// What the parts of a wall and of its sides get when a junction at `p` splits it.
 std::array<Parts, 3> legacy_of_wall(Tissue& tissue, Index wall, const Vec3& p) {
   const Index side0 = tissue.wall_side(wall, 0), side1 = tissue.wall_side(wall, 1);
-  double share = 0;
-  if (needs_share(tissue, Kind::wall) || needs_share(tissue, Kind::side)) {
-    const double first = (p - tissue.position(tissue.start(side0))).norm();
-    const double second = (p - tissue.position(tissue.end(side0))).norm();
-    share = first / (first + second);
-  }
+  const double first = (p - tissue.position(tissue.start(side0))).norm();
+  const double second = (p - tissue.position(tissue.end(side0))).norm();
+  const double share = first / (first + second);
   std::array<Parts, 3> legacy{
       parts_of(tissue, Kind::wall, wall, share), parts_of(tissue, Kind::side, side0, share), {}};
   if (side1 != none) legacy[2] = parts_of(tissue, Kind::side, side1, 1 - share);
   return legacy;
 }
 
-/// The first daughter's share of the area, if a column asks for it.
-double share_of_first(const Tissue& tissue, const Mother& mother, const Plan& plan) {
-  if (!needs_share(tissue, Kind::cell)) return 0;
-  // split_cell calls the daughter that keeps first_side the first: of the pieces a-b and b-a, the one it is in. Side a
-  // itself ends up half in each; its first half, with its number, is in piece b-a.
-  bool first_is_a = false;
-  for (size_t i = plan.a.side; i != plan.b.side;) {
-    i = mother.after(i);
-    first_is_a = first_is_a || i == 0;
-  }
-  const double area_a = measure(plan.piece_a).area, area_b = measure(plan.piece_b).area;
-  return (first_is_a ? area_a : area_b) / (area_a + area_b);
+/// Measures the daughters. Their polygons are then those of their cycles: of two, the first daughter is the one that
+/// has the mother's first_side, and starts there; the second starts at a new junction.
+std::pair<Measure, Measure> measure_daughters(const Mother& mother, Plan& plan) {
+  // Side a itself ends up half in each daughter; its first half, with its number, is in piece b-a.
+  const bool first_is_a = plan.a.side > plan.b.side;
+  auto &first = first_is_a ? plan.piece_a : plan.piece_b, &second = first_is_a ? plan.piece_b : plan.piece_a;
+  const size_t start = mother.size() - (first_is_a ? plan.a : plan.b).side;
+  std::rotate(first.begin(), first.begin() + static_cast<std::ptrdiff_t>(start), first.end());
+  return {measure(first), measure(second)};
 }
 
 void check(const DivisionSettings& settings) {
@@ -226,22 +220,26 @@ struct Outcome {
   std::array<Index, 4> touched() const { return {division.first, division.second, across_a, across_b}; }
 };
 
-Outcome perform(Tissue& tissue, const Work& work) {
-  const auto& [mother, plan] = work;
+Outcome perform(Tissue& tissue, Work& work) {
+  auto& [mother, plan] = work;
   // All that can fail comes first: then the structure changes.
   const Index side_a = mother.sides[plan.a.side], side_b = mother.sides[plan.b.side];
   const Index wall_a = tissue.wall_of(side_a), wall_b = tissue.wall_of(side_b);
   const Index across_a = tissue.neighbour(side_a), across_b = tissue.neighbour(side_b);
+  const auto [first, second] = measure_daughters(mother, plan);
   const auto of_a = legacy_of_wall(tissue, wall_a, plan.at_a), of_b = legacy_of_wall(tissue, wall_b, plan.at_b);
-  const Parts of_cell = parts_of(tissue, Kind::cell, mother.cell, share_of_first(tissue, mother, plan));
+  const Parts of_cell = parts_of(tissue, Kind::cell, mother.cell, first.area / (first.area + second.area));
   TissueEditor editor(tissue);
   editor.require_room(Kind::side, 10);
   editor.split_wall(wall_a, plan.at_a, of_a);
   editor.split_wall(wall_b, plan.at_b, of_b);
   const Index wall = editor.split_cell(tissue.next(side_a), tissue.next(side_b), of_cell);
   const Division division{mother.cell, tissue.cell_of(tissue.wall_side(wall, 1)), wall};
+  editor.set_measure(division.first, first);
+  editor.set_measure(division.second, second);
+  if (across_a != none) editor.set_measure(across_a, measure(plan.across_a));
+  if (across_b != none) editor.set_measure(across_b, measure(plan.across_b));
   const Outcome outcome{division, across_a, across_b};
-  editor.measure(outcome.touched());
 #ifdef TUNICA_VALIDATE
   std::vector<Index> touched;
   for (const Index cell : outcome.touched())

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "base/error.h"
+#include "tissue/polygon.h"
 
 namespace tunica {
 
@@ -35,13 +36,6 @@ Parts parts_of(Tissue& tissue, Kind kind, Index element, double share) {
   for (const auto& column : tissue.columns(kind))
     parts.push_back(parts_of(*column, column->values[static_cast<size_t>(element)], share));
   return parts;
-}
-
-bool needs_share(const Tissue& tissue, Kind kind) {
-  const auto& columns = tissue.columns(kind);
-  return std::any_of(columns.begin(), columns.end(), [](const auto& column) {
-    return !column->geometric && (column->inherit == Inherit::split || column->inherit == Inherit::rule);
-  });
 }
 
 TissueEditor::TissueEditor(Tissue& tissue) : t_(tissue) {
@@ -215,11 +209,12 @@ void TissueEditor::measure_wall(Index wall) {
   t_.length_->values[static_cast<size_t>(wall)] = (t_.position(t_.end(side)) - t_.position(t_.start(side))).norm();
 }
 
-void TissueEditor::measure(std::span<const Index> cells) {
-  std::vector<Vec3> corners;
-  corners.reserve(16);
-  for (const Index cell : cells)
-    if (cell != none) t_.measure_cell(cell, corners);
+void TissueEditor::set_measure(Index cell, const Measure& measure) {
+  const auto i = static_cast<size_t>(cell);
+  t_.area_->values[i] = measure.area;
+  t_.x_->values[i] = measure.centroid.x();
+  t_.y_->values[i] = measure.centroid.y();
+  t_.z_->values[i] = measure.centroid.z();
 }
 
 // === Removing

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -30,8 +29,8 @@ using Parts = std::vector<std::pair<double, double>>;
 /// @param share  the first part's share of area (cells) or length (walls, sides), in 0..1
 /// Errors: what a rule throws; a rule that is missing (after loading) or gives something that is not a number.
 Parts parts_of(Tissue& tissue, Kind kind, Index element, double share);
-/// Whether any column of this kind makes use of the share.
-bool needs_share(const Tissue& tissue, Kind kind);
+
+struct Measure;
 
 /// The only code that changes the structure of a tissue. Each operation leaves columns, identities, fates and versions
 /// right; operations that leave the complex half-built (add, link) are for builders, which finish it.
@@ -68,8 +67,8 @@ class TissueEditor {
   /// @param legacy  what the daughters get, in this order
   /// @return the new wall; its side [0] is in the first daughter, side [1] in the second
   Index split_cell(Index side_a, Index side_b, const Parts& legacy);
-  /// Measures cells (some may be none) that were split, or got a junction. Their new walls are measured already.
-  void measure(std::span<const Index> cells);
+  /// What a cell measures that was split, or got a junction. Its new walls are measured already.
+  void set_measure(Index cell, const Measure& measure);
 
   // === Removing
   /// Removes a cell, its sides, the walls that no other cell has and the junctions that no side starts at. Walls that
