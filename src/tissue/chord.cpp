@@ -186,7 +186,7 @@ std::optional<Vec2> least_on(const ChordLength& chord, Vec2 low, Vec2 high, doub
   const auto between = [&](const Vec2& d) {
     return cross(low, d) > 0 && cross(d, high) > 0 ? d : Vec2((low + high).normalized());
   };
-  Vec2 d = between(turned(low, meet));
+  Vec2 d = between(turned(low, width * start[1] / (start[1] - end[1])));  // as if the slope grew evenly
   for (int i = 0; i < 200; ++i) {
     const auto [length, slope, curvature] = chord.at(d);
     const double step = -slope / curvature;

@@ -254,6 +254,34 @@ TEST(Division, OnACurvedSurfacePutsNewJunctionsOnIt) {
   EXPECT_EQ(cell_statistics(flat).four_way, 0);
 }
 
+TEST(Division, MeasuresTheSameBitsAsMeasuringEverything) {
+  const Sphere sphere;
+  Tissue tissue = hexagon_disk(4, 1);
+  std::vector<Vec3> positions;
+  for (Index j = 0; j < tissue.junctions(); ++j)
+    positions.push_back(sphere.closest(tissue.position(j) + Vec3(0, 0, 10)));
+  move_junctions(tissue, positions);
+  Column& amount = declare(tissue, Kind::cell, "amount", 1, Inherit::split);
+  for (Index c = 0; c < tissue.cells(); ++c) amount.values[static_cast<size_t>(c)] = tissue.area(c);
+  // Of one cell: the daughters' parts are as their areas.
+  const double whole = tissue.area(0);
+  const Division division = divide(tissue, 0, errera, {}, &sphere);
+  const double first = tissue.area(division.first), second = tissue.area(division.second);
+  EXPECT_EQ(amount.values[static_cast<size_t>(division.first)], whole * (first / (first + second)));
+  divide_above(tissue, {.area = .2}, errera, {}, &sphere);
+  EXPECT_GT(tissue.cells(), 250);
+  const auto measures = [&] {
+    std::vector<double> all;
+    for (const char* name : {"area", "x", "y", "z"})
+      for (const double v : tissue.column(Kind::cell, name).values) all.push_back(v);
+    for (const double v : tissue.column(Kind::wall, "length").values) all.push_back(v);
+    return all;
+  };
+  const std::vector<double> divided = measures();
+  tissue.refresh_geometry();
+  EXPECT_EQ(divided, measures());
+}
+
 TEST(Division, ErreraMakesFewerSharpCellsThanTheClosestWall) {
   // As the thesis draws them (fig. 3.8), hardly displaced and not pinched; and with the defaults.
   const DivisionSettings plain{.gap_fraction = .02, .pinch = 0};
