@@ -140,18 +140,28 @@ function registry.type(name, words, is, methods)
   types[name] = { words = function() return words end, is = is, methods = methods }
 end
 
-local function each_type(spec) return spec.type:gmatch("[^|]+") end
+local lists = {}  -- by what a specification says, "number|function": the names
+
+local function types_of(spec)
+  local list = lists[spec.type]
+  if not list then
+    list = {}
+    for name in spec.type:gmatch "[^|]+" do list[#list + 1] = name end
+    lists[spec.type] = list
+  end
+  return list
+end
 
 function registry.expected(spec)
   local words = {}
-  for name in each_type(spec) do words[#words + 1] = types[name].words(spec) end
+  for _, name in ipairs(types_of(spec)) do words[#words + 1] = types[name].words(spec) end
   return table.concat(words, ", or ")
 end
 
 --- True if the value fits the specification; else false and what may help ("; did you mean ...").
 function registry.matches(value, spec, self)
   local hint = ""
-  for name in each_type(spec) do
+  for _, name in ipairs(types_of(spec)) do
     local ok, more = types[name].is(value, spec, self)
     if ok then return true end
     hint = more and more ~= "" and more or hint
@@ -283,7 +293,7 @@ local function check_declaration(entry)
   entry.by_key = {}
   for i, spec in ipairs(entry.args) do
     assert(spec.name and spec.type, entry.name .. ": argument " .. i .. " needs name and type")
-    for name in each_type(spec) do assert(types[name], entry.name .. ": there is no type " .. name) end
+    for _, name in ipairs(types_of(spec)) do assert(types[name], entry.name .. ": there is no type " .. name) end
     entry.by_key[spec.name] = spec
     entry.positions = entry.positions or spec.position ~= nil
   end

@@ -2,6 +2,7 @@
 #include "shape/apex.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "base/error.h"
 
@@ -76,6 +77,16 @@ bool Apex::is_beyond(const Vec3& p, double a) const {
   return arc_of(p) > a;
 }
 
+std::vector<char> Apex::are_beyond(const double* x, const double* y, const double* z, size_t count, double a) const {
+  const ApexView* view = tables_->ready(*profile_, *flow_).view();
+  std::vector<double> answers(count, std::nan(""));
+  if (view) apex_kernels().beyond(*view, x, y, z, static_cast<long>(count), a, answers.data());
+  std::vector<char> far(count);
+  for (size_t i = 0; i < count; ++i)
+    far[i] = std::isnan(answers[i]) ? is_beyond({x[i], y[i], z[i]}, a) : answers[i] > 0;
+  return far;
+}
+
 /// The point of the surface at an arc length, in the direction of p from the axis.
 Vec3 Apex::in_direction_of(const Vec3& p, double a) const {
   const double r = std::sqrt(p.x() * p.x() + p.z() * p.z());
@@ -93,6 +104,44 @@ Vec3 Apex::advance(const Vec3& p, double, double dt) const {
   const double a = arc_of(p);
   const auto there = tables_->ready(*profile_, *flow_).after(a, dt);
   return in_direction_of(p, there ? *there : after(a, dt));
+}
+
+namespace {
+
+/// Lets a kernel answer for all points; those that it leaves out (no number) are asked for one by one.
+template <class Kernel, class Single>
+void answer(std::span<Vec3> points, const Kernel& kernel, const Single& single) {
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  const std::vector<Vec3> before(points.begin(), points.end());
+  if (!points.empty()) kernel(points[0].data(), static_cast<long>(points.size()));
+  for (size_t i = 0; i < points.size(); ++i)
+    if (std::isnan(points[i].x())) points[i] = single(before[i]);
+}
+
+}  // namespace
+
+void Apex::advance_all(std::span<Vec3> points, double t, double dt) const {
+  const ApexView* view = tables_->ready(*profile_, *flow_).view();
+  if (!view || !(dt >= 0)) return Surface::advance_all(points, t, dt);
+  const auto move = [&](double* xyz, long count) { apex_kernels().move(*view, dt, xyz, count); };
+  answer(points, move, [&](const Vec3& p) { return advance(p, t, dt); });
+}
+
+void Apex::facing_all(std::span<Vec3> points) const {
+  const ApexView* view = tables_->ready(*profile_, *flow_).view();
+  if (!view) return Surface::facing_all(points);
+  const auto face = [&](double* xyz, long count) { apex_kernels().face(*view, xyz, count); };
+  answer(points, face, [&](const Vec3& p) { return facing(p); });
+}
+
+void Apex::places_of(const double* x, const double* y, const double* z, size_t count, double* theta, double* a) const {
+  const ApexView* view = tables_->ready(*profile_, *flow_).view();
+  if (view) apex_kernels().locate(*view, x, y, z, static_cast<long>(count), theta, a);
+  for (size_t i = 0; i < count; ++i) {
+    const Vec3 p(x[i], y[i], z[i]);
+    if (!view) theta[i] = place_of(p).theta * 180 / std::numbers::pi;
+    if (!view || std::isnan(a[i])) a[i] = arc_of(p);
+  }
 }
 
 Vec3 Apex::closest(const Vec3& p) const {

@@ -46,10 +46,16 @@ class Apex : public Surface {
   Vec3 closest(const Vec3& p) const override;
   Vec3 normal(const Vec3& p) const override;
   Vec3 facing(const Vec3& p) const override;
+  void advance_all(std::span<Vec3> points, double t, double dt) const override;
+  void facing_all(std::span<Vec3> points) const override;
+  /// theta (in degrees, 0 on the axis) and a of `count` points, as of place_of().
+  void places_of(const double* x, const double* y, const double* z, size_t count, double* theta, double* a) const;
   /// As place_of(p).a.
   double arc_of(const Vec3& p) const;
   /// arc_of(p) > a, found with less work where it is clear.
   bool is_beyond(const Vec3& p, double a) const;
+  /// Of many points, in order.
+  std::vector<char> are_beyond(const double* x, const double* y, const double* z, size_t count, double a) const;
 
   /// The way of what is at a0 at age 0. @param oldest  ages up to this one are tabulated. Errors: as after(), and an
   /// oldest age that is not positive.

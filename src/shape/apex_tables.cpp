@@ -98,11 +98,19 @@ double ApexTables::between_steps(double level) const {
   return from + (to - from) * std::clamp((level - level_[step]) / (level_[step + 1] - level_[step]), 0., 1.);
 }
 
+/// The a near which the nearest place to p is.
+double ApexTables::first_guess(const Vec2& p) const {
+  const double level = p.x() - p.y();
+  if (!place_ || !(level >= place_.first() && level <= place_.last())) return between_steps(level);
+  // The point of the profile at the same level, and from there on along the tangent.
+  const auto at = place_.find(level);
+  const double along = (2 * place_.slope(at, 0) - 1) / place_.slope(at, 1);
+  return std::clamp(place_.value(at, 1) + (p.x() - place_.value(at, 0)) * along, 0., track_.last());
+}
+
 std::optional<double> ApexTables::nearest_arc(const Vec2& p) const {
   if (!track_) return std::nullopt;
-  const double level = p.x() - p.y();
-  double a = place_ && level >= place_.first() && level <= place_.last() ? place_.value(place_.find(level), 1)
-                                                                         : between_steps(level);
+  double a = first_guess(p);
   for (int i = 0; i < 12; ++i) {
     const auto at = track_.find(a);
     const Vec2 away(track_.value(at, 0) - p.x(), track_.value(at, 1) - p.y());
@@ -266,6 +274,9 @@ void ApexTables::tabulate_movement(const Profile& profile, const Flow& flow) {
   place_ = Table<3>(levels, place, movement_tolerance * size_);
   course_ = Table<2>(times, course, movement_tolerance * size_);
   if (!place_ || !course_) place_ = {}, course_ = {};
+  viewed_ = track_.view(view_.track) && place_.view(view_.place) && course_.view(view_.course);
+  view_.size = size_, view_.speed = speed_at_last_, view_.rise = rise_, view_.sharpest = sharpest_;
+  view_.on_profile = on_profile;
 }
 
 std::optional<ApexTables::Guess> ApexTables::guess(const Vec2& p) const {

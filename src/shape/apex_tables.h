@@ -19,6 +19,8 @@ class ApexTables {
   /// Made when first asked: an apex without cells needs none.
   const ApexTables& ready(const Profile& profile, const Flow& flow);
 
+  /// The same for many points at once (apex_kernels.h); nullptr: not to be had.
+  const ApexView* view() const { return viewed_ ? &view_ : nullptr; }
   bool has_profile() const { return static_cast<bool>(track_); }
   std::optional<Vec2> at(double a) const;
   /// The one place of the profile nearest to p: none if that is not certain.
@@ -44,6 +46,7 @@ class ApexTables {
   void tabulate(const Flow& flow);
   void tabulate_movement(const Profile& profile, const Flow& flow);
   double between_steps(double level) const;
+  double first_guess(const Vec2& p) const;
   double a_of_level(double level) const;
   double time(double a) const;
   double a_of_time(double time) const;
@@ -63,6 +66,8 @@ class ApexTables {
 
   Table<3> place_;   ///< x, a and time by level
   Table<2> course_;  ///< x and y by time
+  ApexView view_;
+  bool viewed_ = false;
 };
 
 }  // namespace tunica

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shape/apex_tissue.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <tuple>
@@ -116,19 +117,43 @@ Column& place_column(Tissue& tissue, const char* name) {
   return tissue.add_column(Kind::cell, std::move(column));
 }
 
-void locate(Column& theta, Column& a, const Tissue& tissue, Index cell, const Apex& apex) {
-  const Vec3 p = tissue.centroid(cell);
-  const bool on_axis = p.x() == 0 && p.z() == 0;
-  theta.values[static_cast<size_t>(cell)] = on_axis ? 0 : std::atan2(p.z(), p.x()) * 180 / std::numbers::pi;
-  a.values[static_cast<size_t>(cell)] = apex.arc_of(p);
+/// One of x, y, z of the centroids of all cells.
+const double* centroids(const Tissue& tissue, const char* axis) {
+  return tissue.find_column(Kind::cell, axis)->values.data();
 }
+
+/// Columns of a tissue whose cells lie on an apex.
+struct Places {
+  Tissue& tissue;
+  const Apex& apex;
+  Column &theta, &a;
+
+  void update() const {
+    const double *x = centroids(tissue, "x"), *y = centroids(tissue, "y"), *z = centroids(tissue, "z");
+    apex.places_of(x, y, z, static_cast<size_t>(tissue.cells()), theta.values.data(), a.values.data());
+  }
+  void update(const std::vector<Index>& cells) const {
+    const size_t n = cells.size();
+    std::vector<double> values(5 * n);
+    double *x = values.data(), *y = x + n, *z = y + n, *angle = z + n, *arc = angle + n;
+    for (size_t i = 0; i < n; ++i) {
+      const Vec3 p = tissue.centroid(cells[i]);
+      x[i] = p.x(), y[i] = p.y(), z[i] = p.z();
+    }
+    apex.places_of(x, y, z, n, angle, arc);
+    for (size_t i = 0; i < n; ++i) {
+      theta.values[static_cast<size_t>(cells[i])] = angle[i];
+      a.values[static_cast<size_t>(cells[i])] = arc[i];
+    }
+  }
+};
 
 }  // namespace
 
 void locate(Tissue& tissue, const Apex& apex) {
   if (!tissue.has_geometry()) fail("cells without geometry have no place on an apex");
-  Column &theta = place_column(tissue, "theta"), &a = place_column(tissue, "a");
-  for (Index c = 0; c < tissue.cells(); ++c) locate(theta, a, tissue, c, apex);
+  Column& theta = place_column(tissue, "theta");
+  Places{tissue, apex, theta, place_column(tissue, "a")}.update();
 }
 
 namespace {
@@ -147,31 +172,38 @@ struct Followers {
     if (!theta || !a) apex = nullptr;
     if (!primordium || !closeness) bulges = nullptr;
   }
-  void update(Index cell) const {
-    if (apex) locate(*theta, *a, tissue, cell, *apex);
-    if (bulges) differentiate(*primordium, *closeness, tissue, cell, *bulges);
+  void update() const {
+    if (apex) Places{tissue, *apex, *theta, *a}.update();
+    if (bulges) differentiate(tissue, *bulges);
+  }
+  void update(const std::vector<Index>& cells) const {
+    if (apex) Places{tissue, *apex, *theta, *a}.update(cells);
+    for (const Index cell : cells)
+      if (bulges) differentiate(*primordium, *closeness, tissue, cell, *bulges);
   }
 };
 
 }  // namespace
 
-void follow(Tissue& tissue, const Surface& surface) {
-  const Followers followers(tissue, surface);
-  for (Index c = 0; c < tissue.cells(); ++c) followers.update(c);
-}
+void follow(Tissue& tissue, const Surface& surface) { Followers(tissue, surface).update(); }
 
 void follow(Tissue& tissue, const Surface& surface, const std::vector<Id>& only) {
-  const Followers followers(tissue, surface);
+  std::vector<Index> cells;
   for (const Id id : only)
-    if (const Index c = tissue.find(Kind::cell, id); c != none) followers.update(c);
+    if (const Index c = tissue.find(Kind::cell, id); c != none) cells.push_back(c);
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  Followers(tissue, surface).update(cells);
 }
 
 int64_t remove_beyond(Tissue& tissue, const Apex& apex, double a) {
   if (!std::isfinite(a)) fail("the arc length beyond which cells go must be finite, not {}", a);
   if (!tissue.has_geometry()) fail("cells without geometry have no place on an apex");
   std::vector<Id> gone;
+  const std::vector<char> beyond = apex.are_beyond(centroids(tissue, "x"), centroids(tissue, "y"),
+                                                   centroids(tissue, "z"), static_cast<size_t>(tissue.cells()), a);
   for (Index c = 0; c < tissue.cells(); ++c)
-    if (apex.is_beyond(tissue.centroid(c), a)) gone.push_back(tissue.id(Kind::cell, c));
+    if (beyond[static_cast<size_t>(c)]) gone.push_back(tissue.id(Kind::cell, c));
   const auto count = static_cast<int64_t>(gone.size());
   remove_cells(tissue, std::move(gone));
   return count;

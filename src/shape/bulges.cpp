@@ -50,7 +50,8 @@ Bulges::State Bulges::state_at(double t) const {
       fail("radius and height of a primordium must be 0 or more; at age {} they are {} and {}", age, radius, height);
     state.flat = state.flat && !(radius > 0 && height > 0);
     if (radius > 0)
-      state.bumps.push_back({i, base_->advance(primordia_[i].place, primordia_[i].birth, age), radius, height});
+      state.bumps.push_back(
+          {i, base_->advance(primordia_[i].place, primordia_[i].birth, age), radius, height, 1 / (radius * radius)});
   }
   return state;
 }
@@ -98,12 +99,21 @@ Vec3 Bulges::advance(const Vec3& p, double t, double dt) const {
   return lifted(cached(t + dt), moved);
 }
 
+void Bulges::advance_all(std::span<Vec3> points, double t, double dt) const {
+  const bool flat = cached(t + dt).flat && cached(t).flat;
+  flat ? base_->advance_all(points, t, dt) : Surface::advance_all(points, t, dt);
+}
+
+void Bulges::facing_all(std::span<Vec3> points) const {
+  now_.flat ? base_->facing_all(points) : Surface::facing_all(points);
+}
+
 const Bulges::Bump* Bulges::bump_at(const Vec3& p, double* fraction) const {
   const Vec3 b = now_.flat ? p : base_->closest(p);
   const Bump* found = nullptr;
   double least = 1;
   for (const Bump& bump : now_.bumps) {
-    const double here = (b - bump.centre).squaredNorm() / (bump.radius * bump.radius);
+    const double here = (b - bump.centre).squaredNorm() * bump.per_square;
     if (here >= least) continue;
     least = here;
     found = &bump;

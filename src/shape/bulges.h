@@ -32,6 +32,7 @@ class Bulges : public Surface {
     size_t which;  ///< in primordia()
     Vec3 centre;   ///< on the base
     double radius, height;
+    double per_square;  ///< 1 / radius^2
   };
 
   /// Errors: no base or function; a base without a known outside.
@@ -50,6 +51,8 @@ class Bulges : public Surface {
   const std::vector<Bump>& bumps() const { return now_.bumps; }
 
   Vec3 advance(const Vec3& p, double t, double dt) const override;
+  void advance_all(std::span<Vec3> points, double t, double dt) const override;
+  void facing_all(std::span<Vec3> points) const override;
   /// To 1e-6 of the smallest radius near it, or to the base's own accuracy where nothing bulges. Far from the surface
   /// it is the best found from several starts.
   Vec3 closest(const Vec3& p) const override;

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "shape/apex_kernels.h"
+
 namespace tunica {
 
 /// N functions of one variable that cost much, as Hermite's cubics: even steps between given breaks, halved until the
@@ -64,6 +66,18 @@ class Table {
   double bend(const Place& p, size_t i) const {
     const double* c = cubics_[p.step].data() + 4 * i;
     return p.per_x * p.per_x * (2 * c[2] + 6 * p.s * c[3]);
+  }
+
+  /// For the kernels, while this table lives. False: it has more spans than they can take.
+  bool view(TableView& view) const {
+    if (cubics_.empty() || spans_.size() > TableView::most_spans) return false;
+    view = {cubics_[0].data(), static_cast<int>(N), static_cast<int>(spans_.size()), first(), last_, {}, {}, {}, {}};
+    for (size_t i = 0; i < spans_.size(); ++i) {
+      view.from[i] = spans_[i].from, view.per_x[i] = spans_[i].per_x;
+      view.first_step[i] = static_cast<double>(spans_[i].first);
+      view.last_step[i] = static_cast<double>(spans_[i].first + spans_[i].count - 1);
+    }
+    return true;
   }
 
  private:

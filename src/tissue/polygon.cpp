@@ -115,33 +115,6 @@ std::vector<Vec2> Frame::flat(const std::vector<Vec3>& points) const {
   return result;
 }
 
-bool is_plain_cell(std::span<const Vec3> polygon, const Vec3& outward) {
-  const size_t n = polygon.size();
-  if (n < 3) return false;
-  Vec3 twice = Vec3::Zero(), along = polygon[1] - polygon[0];
-  for (size_t i = 2; i < n; ++i) {
-    const Vec3 next = polygon[i] - polygon[0];
-    twice += along.cross(next);
-    along = next;
-  }
-  const double facing = twice.dot(outward);
-  if (!(facing > 0 && facing * facing > .25 * twice.squaredNorm() * outward.squaredNorm()) || !std::isfinite(facing))
-    return false;
-  int turns = 0;
-  Vec3 edge = polygon[0] - polygon[n - 1];
-  const Vec3 first = edge;
-  bool ahead = true;
-  for (size_t i = 0; i < n; ++i) {
-    const Vec3 next = polygon[i + 1 < n ? i + 1 : 0] - polygon[i];
-    if (!(edge.cross(next).dot(twice) > 0)) return false;
-    const bool now = next.dot(first) > 0;
-    if (now != ahead) ++turns;
-    ahead = now;
-    edge = next;
-  }
-  return turns <= 2;  // once around: along any direction there and back
-}
-
 bool is_possible_cell(const std::vector<Vec3>& polygon) {
   if (polygon.size() < 3) return false;
   for (const Vec3& p : polygon)

@@ -26,24 +26,37 @@ const char* problem_of(const Tissue& tissue, Index cell, const std::vector<Vec3>
 
 void set_all(Tissue& tissue, const std::vector<Vec3>& positions) {
   for (Index j = 0; j < tissue.junctions(); ++j) tissue.set_position(j, positions[static_cast<size_t>(j)]);
-  tissue.refresh_geometry();
 }
 
-/// What is wrong with the first impossible cell of a tissue that has been moved; empty: nothing.
-/// @param facing  where each cell faced before; unused if there is a surface
-std::string problem_of(Tissue& tissue, const Surface* surface, const std::vector<Vec3>& facing) {
+/// Outward on each cell of a tissue that has been moved, by one of its corners; zero where that is at no finite place,
+/// since a surface cannot be asked about that.
+std::vector<Vec3> outward_of_cells(Tissue& tissue, const Surface& surface) {
   const LockWhile surface_may_be_a_script(tissue);
-  std::vector<Vec3> corners;
+  std::vector<Vec3> outward;
+  outward.reserve(static_cast<size_t>(tissue.cells()));
+  bool finite = true;
   for (Index c = 0; c < tissue.cells(); ++c) {
-    const Vec3 place = tissue.centroid(c), &corner = tissue.position(tissue.start(tissue.first_side(c)));
-    // A surface cannot be asked about a place that is none.
-    const Vec3 near = !surface             ? facing[static_cast<size_t>(c)]
-                      : corner.allFinite() ? surface->facing(corner)
-                                           : Vec3(Vec3::Zero());
-    tissue.collect_polygon(c, corners);
-    if (tissue.area(c) > 0 && is_plain_cell(corners, near)) continue;
-    const Vec3 outward = !surface ? near : place.allFinite() ? surface->normal(place) : Vec3(Vec3::Zero());
-    if (const char* problem = problem_of(tissue, c, corners, outward))
+    outward.push_back(tissue.position(tissue.start(tissue.first_side(c))));
+    finite = finite && outward.back().allFinite();
+  }
+  if (finite) {
+    surface.facing_all(outward);
+    return outward;
+  }
+  for (Vec3& place : outward) place = place.allFinite() ? surface.facing(place) : Vec3(Vec3::Zero());
+  return outward;
+}
+
+/// What is wrong with the first impossible cell among those that are not plain; empty: nothing.
+std::string problem_of(Tissue& tissue, const Surface* surface, const std::vector<Vec3>& outward,
+                       const std::vector<Index>& doubtful) {
+  const LockWhile surface_may_be_a_script(tissue);
+  for (const Index c : doubtful) {
+    const Vec3 place = tissue.centroid(c);
+    const Vec3 out = !surface            ? outward[static_cast<size_t>(c)]
+                     : place.allFinite() ? surface->normal(place)
+                                         : Vec3(Vec3::Zero());
+    if (const char* problem = problem_of(tissue, c, tissue.polygon(c), out))
       return fmt::format("cell {} {} (near {:.4g}, {:.4g}, {:.4g})", tissue.id(Kind::cell, c), problem, place.x(),
                          place.y(), place.z());
   }
@@ -58,20 +71,33 @@ void move_junctions(Tissue& tissue, const std::vector<Vec3>& positions, const Su
   if (positions.size() != static_cast<size_t>(tissue.junctions()))
     fail("{} positions for {} junctions", positions.size(), tissue.junctions());
   if (surface && !surface->has_outside()) surface = nullptr;
-  std::vector<Vec3> before, facing;
+  std::vector<Vec3> before, outward;
   for (Index j = 0; j < tissue.junctions(); ++j) before.push_back(tissue.position(j));
-  for (Index c = 0; c < tissue.cells() && !surface; ++c) facing.push_back(tissue.normal(c));
+  for (Index c = 0; c < tissue.cells() && !surface; ++c) outward.push_back(tissue.normal(c));
   set_all(tissue, positions);
   std::string problem;
   try {
-    problem = problem_of(tissue, surface, facing);
+    if (surface) outward = outward_of_cells(tissue, *surface);
+    std::vector<Index> doubtful;
+    tissue.refresh_geometry(outward, doubtful);
+    problem = problem_of(tissue, surface, outward, doubtful);
   } catch (...) {
     set_all(tissue, before);
+    tissue.refresh_geometry();
     throw;
   }
   if (problem.empty()) return;
   set_all(tissue, before);
+  tissue.refresh_geometry();
   fail("this movement is not possible: {}; the tissue stays as it was", problem);
+}
+
+void Surface::advance_all(std::span<Vec3> points, double t, double dt) const {
+  for (Vec3& p : points) p = advance(p, t, dt);
+}
+
+void Surface::facing_all(std::span<Vec3> points) const {
+  for (Vec3& p : points) p = facing(p);
 }
 
 std::vector<Vec3> advanced(Tissue& tissue, const Surface& surface, double t, double dt) {
@@ -82,7 +108,8 @@ std::vector<Vec3> advanced(Tissue& tissue, const Surface& surface, double t, dou
   const LockWhile surface_may_be_a_script(tissue);
   std::vector<Vec3> positions;
   positions.reserve(static_cast<size_t>(tissue.junctions()));
-  for (Index j = 0; j < tissue.junctions(); ++j) positions.push_back(surface.advance(tissue.position(j), t, dt));
+  for (Index j = 0; j < tissue.junctions(); ++j) positions.push_back(tissue.position(j));
+  surface.advance_all(positions, t, dt);
   return positions;
 }
 

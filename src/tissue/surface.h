@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+
 #include "tissue/tissue.h"
 
 namespace tunica {
@@ -20,6 +22,9 @@ class Surface {
   virtual Vec3 normal(const Vec3& p) const = 0;
   /// The same of any length, to within some degrees: for what only asks which side is outward.
   virtual Vec3 facing(const Vec3& p) const { return normal(p); }
+  /// The same of many points, each of which is replaced by the answer.
+  virtual void advance_all(std::span<Vec3> points, double t, double dt) const;
+  virtual void facing_all(std::span<Vec3> points) const;
   /// Whether it is known which side is outward. If not, normal() is an error, and cells keep facing where they do.
   virtual bool has_outside() const { return true; }
 };

@@ -18,6 +18,7 @@ using Vec3 = Eigen::Vector3d;
 using Index = int32_t;  ///< dense index of an element of one kind; changes with topology
 using Id = uint32_t;    ///< identity of an element: never reused, never changed
 inline constexpr Index none = -1;
+struct FourOutlines;
 
 /// A complex of cells. A cell is a cyclic list of sides (counter-clockwise seen from outside); a side is a wall seen
 /// from one of its cells; a wall has one side (border) or two; with geometry, sides run between junctions. A tissue
@@ -78,6 +79,8 @@ class Tissue {
   /// Recomputes area, centroid and lengths of everything / of one cell and its walls. Nothing without geometry.
   void refresh_geometry();
   void refresh_geometry(Index cell);
+  /// The first, and which cells are not plain beyond doubt (is_plain_cell in polygon.h). @param outward  of each cell
+  void refresh_geometry(const std::vector<Vec3>& outward, std::vector<Index>& doubtful);
   double area(Index cell) const { return area_->values[cell]; }
   double length(Index wall) const { return length_->values[wall]; }
   Vec3 centroid(Index cell) const { return {x_->values[cell], y_->values[cell], z_->values[cell]}; }
@@ -122,6 +125,9 @@ class Tissue {
   void add_geometric_columns();
   Column& own_column(Kind kind, const char* name);
   void measure_cell(Index cell, std::vector<Vec3>& points);
+  void measure_walls();
+  void measure_all(const std::vector<Vec3>* outward, std::vector<Index>* doubtful);
+  bool collect_outlines(Index first, FourOutlines& outlines) const;
   void load_kind(ByteReader& in, Kind kind);
   void refresh_after_load();
   void adopt(Tissue&& fresh);

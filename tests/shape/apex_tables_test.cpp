@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shape/apex_tables.h"
 
+#include <cstring>
+
 #include "shape/apex.h"
 #include "tissue/fixtures.h"
 
@@ -18,16 +20,17 @@ Profile dome() {
 std::vector<std::pair<const char*, Apex>> apices() {
   const Curve spline({{0, .25}, {1.7, .25}, {2, .2}, {2.4, .17}, {8, .17}});
   const Curve linear = Curve::linear({{0, .1}, {1, .3}, {3, 0}});
-  return {{"cap", Apex(Profile::cap(1.5, 1.3, 9), spline)},
-          {"long growth", Apex(Profile::cap(1.5, 1.3, 5), Curve({{0, .25}, {20, .2}, {40, .17}}))},
-          {"steady", Apex(Profile::cap(1.5, 1.3, 5), Curve({{0, .2}, {20, .2}}))},
-          {"dome", Apex(dome(), linear)},
-          {"slowing", Apex(dome(), Curve({{0, .2}, {1, 1}, {2, 0}}))},
-          {"constant", Apex(dome(), Curve::constant(.3))},
-          {"hemisphere", Apex(Profile::cap(1, M_PI / 2, 5), spline)},
-          {"corner", Apex(Profile(BSpline({{0, 0}, {1, -.2}, {1.1, -2}}, 1, Ends::clamped)), spline)},
-          {"narrowing", Apex(Profile(BSpline({{0, 0}, {2, 0}, {2, -1}, {.5, -1.2}, {.5, -3}}, 3, Ends::clamped)), spline)},
-          {"hole", Apex(Profile::line({1, 0}, {1.5, -4}), spline)}};
+  return {
+      {"cap", Apex(Profile::cap(1.5, 1.3, 9), spline)},
+      {"long growth", Apex(Profile::cap(1.5, 1.3, 5), Curve({{0, .25}, {20, .2}, {40, .17}}))},
+      {"steady", Apex(Profile::cap(1.5, 1.3, 5), Curve({{0, .2}, {20, .2}}))},
+      {"dome", Apex(dome(), linear)},
+      {"slowing", Apex(dome(), Curve({{0, .2}, {1, 1}, {2, 0}}))},
+      {"constant", Apex(dome(), Curve::constant(.3))},
+      {"hemisphere", Apex(Profile::cap(1, M_PI / 2, 5), spline)},
+      {"corner", Apex(Profile(BSpline({{0, 0}, {1, -.2}, {1.1, -2}}, 1, Ends::clamped)), spline)},
+      {"narrowing", Apex(Profile(BSpline({{0, 0}, {2, 0}, {2, -1}, {.5, -1.2}, {.5, -3}}, 3, Ends::clamped)), spline)},
+      {"hole", Apex(Profile::line({1, 0}, {1.5, -4}), spline)}};
 }
 
 /// What is read from tables is what is found the longer way: for points on the surface and near it, and as they grow.
@@ -48,6 +51,66 @@ TEST(ApexTables, AgreeWithWhatTheyTabulate) {
       EXPECT_NEAR((apex.normal(off) - apex.normal(place)).norm(), 0, 1e-7) << name << ' ' << a;
     }
   }
+}
+
+/// Points asked for together get what each gets alone, with either instruction set.
+TEST(ApexTables, ManyAtOnceAreAsOneByOne) {
+  Dice dice(9);
+  for (const auto& [name, apex] : apices()) {
+    const size_t n = 1001;
+    std::vector<double> x(n), y(n), z(n), theta(n), a(n);
+    std::vector<Vec3> on(n);
+    for (size_t i = 0; i < n; ++i) {
+      on[i] = apex.position(dice.between(-3, 3), i == 0 ? 0 : 6 * std::pow(dice.real(), 2));
+      const double off = i % 3 == 0 ? 0 : .1;
+      x[i] = on[i].x() + dice.between(-off, off), y[i] = on[i].y() + dice.between(-off, off);
+      z[i] = on[i].z() + dice.between(-off, off);
+    }
+    std::vector<Vec3> moved = on, facing = on;
+    apex.advance_all(moved, 0, .3);
+    apex.facing_all(facing);
+    apex.places_of(x.data(), y.data(), z.data(), n, theta.data(), a.data());
+    const double border = 2.5;
+    const std::vector<char> far = apex.are_beyond(x.data(), y.data(), z.data(), n, border);
+    for (size_t i = 0; i < n; ++i) {
+      const Vec3 p(x[i], y[i], z[i]);
+      EXPECT_EQ(moved[i], apex.advance(on[i], 0, .3)) << name;
+      EXPECT_EQ(facing[i], apex.facing(on[i])) << name;
+      EXPECT_EQ(a[i], apex.arc_of(p)) << name;
+      EXPECT_EQ(far[i] != 0, apex.is_beyond(p, border)) << name;
+      const double angle = x[i] == 0 && z[i] == 0 ? 0 : std::atan2(z[i], x[i]) * 180 / M_PI;
+      EXPECT_NEAR(theta[i], angle, 1e-13 * 180) << name;
+    }
+  }
+}
+
+TEST(ApexTables, InstructionSetsGiveTheSameBits) {
+  if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "only one here";
+  Dice dice(10);
+  const Profile profile = dome();
+  const Flow flow(Curve({{0, .25}, {1.7, .25}, {2, .2}, {2.4, .17}, {8, .17}}));
+  ApexTables tables;
+  const ApexView* view = tables.ready(profile, flow).view();
+  ASSERT_TRUE(view);
+  const long n = 4003;
+  std::vector<double> xyz(3 * n);
+  for (double& value : xyz) value = dice.between(-2, 2);
+  const double *x = xyz.data(), *y = x + n, *z = y + n;
+  std::vector<double> results[2];
+  for (const ApexKernels* kernels : {&sse2::apex_kernels(), &avx2::apex_kernels()}) {
+    std::vector<double> moved = xyz, facing = xyz, theta(n), a(n), far(n);
+    for (long i = 0; i < n; ++i) {  // on the surface
+      const double r = std::hypot(moved[3 * i], moved[3 * i + 2]);
+      moved[3 * i + 1] = profile.at(profile.arc_at_radius(std::min(r, 1.3))).y();
+    }
+    kernels->move(*view, .2, moved.data(), n);
+    kernels->face(*view, facing.data(), n);
+    kernels->locate(*view, x, y, z, n, theta.data(), a.data());
+    kernels->beyond(*view, x, y, z, n, 1.5, far.data());
+    std::vector<double>& all = results[kernels == &avx2::apex_kernels()];
+    for (const auto& part : {moved, facing, theta, a, far}) all.insert(all.end(), part.begin(), part.end());
+  }
+  EXPECT_EQ(std::memcmp(results[0].data(), results[1].data(), results[0].size() * sizeof(double)), 0);
 }
 
 /// A point far from the surface may have several nearest places: then the tables must not answer.

@@ -6,6 +6,7 @@
 #include "shape/bulges.h"
 #include "tissue/division.h"
 #include "tissue/fixtures.h"
+#include "tissue/polygon.h"
 #include "tissue/statistics.h"
 
 namespace tunica {
@@ -101,6 +102,29 @@ TEST(ApexTissue, Errors) {
   CancelFlag stop;
   stop.request();
   EXPECT_THROW(apex_tissue(apex, {.to = 1, .cancel = &stop}), Cancelled);
+}
+
+/// Cells measured four at once and one by one: the same bits.
+TEST(ApexTissue, CellsAreMeasuredTogetherAsAlone) {
+  Tissue tissue = apex_tissue(Apex(Profile::cap(1.45, 1.3, 9), Curve::constant(.2)), {.to = 4, .max_area = .2});
+  const auto values = [&] {
+    std::vector<double> all;
+    for (const char* name : {"area", "x", "y", "z"}) {
+      const auto& column = tissue.column(Kind::cell, name).values;
+      all.insert(all.end(), column.begin(), column.end());
+    }
+    for (Index w = 0; w < tissue.walls(); ++w) all.push_back(tissue.length(w));
+    return all;
+  };
+  tissue.refresh_geometry();
+  const std::vector<double> together = values();
+  for (Index c = 0; c < tissue.cells(); ++c) tissue.refresh_geometry(c);
+  EXPECT_EQ(together, values());
+  for (Index c = 0; c < tissue.cells(); ++c) {
+    const Measure m = measure(tissue.polygon(c));
+    EXPECT_EQ(m.area, tissue.area(c));
+    EXPECT_EQ(m.centroid, tissue.centroid(c));
+  }
 }
 
 }  // namespace

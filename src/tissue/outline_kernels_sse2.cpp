@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: MIT
+#define TUNICA_ISA sse2
+#include "tissue/outline_kernels.inl"
