@@ -235,17 +235,20 @@ local function gather(entry, ...)
 end
 
 local function check_named(entry, self, ...)
-  local given, out, by_key = gather(entry, ...), {}, entry.by_key
+  local given, out, by_key, args, others = gather(entry, ...), {}, entry.by_key, entry.args, false
   for key, value in next, given do
-    if by_key[key] then
-      if out[key] ~= nil then fail("%s: '%s' is given twice", entry.title, key) end
-      out[key] = value
+    if by_key[key] then out[key] = value else others = true end
+  end
+  if others then
+    for key, value in pairs(given) do
+      if not by_key[key] then check_key(entry, key, value, out) end
     end
   end
-  for key, value in pairs(given) do
-    if not by_key[key] then check_key(entry, key, value, out) end
+  for i = 1, #args do
+    local spec = args[i]
+    local name = spec.name
+    if out[name] ~= nil or spec.required then check_value(entry, spec, out[name], self) else out[name] = spec.default end
   end
-  for _, spec in ipairs(entry.args) do out[spec.name] = check_value(entry, spec, out[spec.name], self) end
   if entry.rest then
     for key, value in pairs(out) do
       if not by_key[key] then

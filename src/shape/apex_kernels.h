@@ -22,6 +22,11 @@ struct ApexView {
   double size, speed, rise, sharpest, on_profile;
 };
 
+/// What is within a distance of a place: 1 / distance^2.
+struct Disc {
+  double x, y, z, per_square;
+};
+
 /// Where the tables do not serve, the answer is no number (NaN), and the longer way is to be taken. All sets give the
 /// same bits. @param count  of points, any
 struct ApexKernels {
@@ -35,6 +40,9 @@ struct ApexKernels {
   /// Whether they are farther than an arc length: 1 or 0, where ApexTables::guess() tells.
   void (*beyond)(const ApexView&, const double* x, const double* y, const double* z, long count, double a,
                  double* answer);
+  /// The disc in which each point is most deeply, from 1 (0: in none), and how deeply: 1 - distance / radius.
+  void (*deepest)(const Disc*, int discs, const double* x, const double* y, const double* z, long count, double* disc,
+                  double* depth);
 };
 
 /// Those for this machine.

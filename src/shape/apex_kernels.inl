@@ -194,10 +194,28 @@ void locate(const ApexView& apex, const double* x, const double* y, const double
   }
 }
 
+void deepest(const Disc* discs, int count_of_discs, const double* x, const double* y, const double* z, long count,
+             double* disc, double* depth) {
+  for (long i = 0; i < count; i += 4) {
+    const long left = count - i < 4 ? count - i : 4;
+    const Points p = places(x + i, y + i, z + i, left);
+    Four least = all(1), found{};
+    for (int d = 0; d < count_of_discs; ++d) {
+      const Four dx = p.x - discs[d].x, dy = p.y - discs[d].y, dz = p.z - discs[d].z;
+      const Four here = (dx * dx + dy * dy + dz * dz) * discs[d].per_square;
+      const Mask nearer = here < least;
+      least = choose(nearer, here, least);
+      found = choose(nearer, all(d + 1), found);
+    }
+    const Four deep = 1.0 - root(least);
+    for (int k = 0; k < left; ++k) disc[i + k] = found[k], depth[i + k] = deep[k];
+  }
+}
+
 }  // namespace
 
 const ApexKernels& apex_kernels() {
-  static const ApexKernels set{move, face, locate, beyond};
+  static const ApexKernels set{move, face, locate, beyond, deepest};
   return set;
 }
 

@@ -122,38 +122,39 @@ const double* centroids(const Tissue& tissue, const char* axis) {
   return tissue.find_column(Kind::cell, axis)->values.data();
 }
 
-/// Columns of a tissue whose cells lie on an apex.
-struct Places {
-  Tissue& tissue;
-  const Apex& apex;
-  Column &theta, &a;
+/// Sets two columns of cells by their centroids. @param ask  (x, y, z, count, first, second), of so many points
+template <class Ask>
+void set_by_place(Tissue& tissue, Column& first, Column& second, const Ask& ask) {
+  ask(centroids(tissue, "x"), centroids(tissue, "y"), centroids(tissue, "z"), static_cast<size_t>(tissue.cells()),
+      first.values.data(), second.values.data());
+}
 
-  void update() const {
-    const double *x = centroids(tissue, "x"), *y = centroids(tissue, "y"), *z = centroids(tissue, "z");
-    apex.places_of(x, y, z, static_cast<size_t>(tissue.cells()), theta.values.data(), a.values.data());
+template <class Ask>
+void set_by_place(Tissue& tissue, Column& first, Column& second, const std::vector<Index>& cells, const Ask& ask) {
+  const size_t n = cells.size();
+  std::vector<double> values(5 * n);
+  double *x = values.data(), *y = x + n, *z = y + n, *one = z + n, *two = one + n;
+  for (size_t i = 0; i < n; ++i) {
+    const Vec3 p = tissue.centroid(cells[i]);
+    x[i] = p.x(), y[i] = p.y(), z[i] = p.z();
   }
-  void update(const std::vector<Index>& cells) const {
-    const size_t n = cells.size();
-    std::vector<double> values(5 * n);
-    double *x = values.data(), *y = x + n, *z = y + n, *angle = z + n, *arc = angle + n;
-    for (size_t i = 0; i < n; ++i) {
-      const Vec3 p = tissue.centroid(cells[i]);
-      x[i] = p.x(), y[i] = p.y(), z[i] = p.z();
-    }
-    apex.places_of(x, y, z, n, angle, arc);
-    for (size_t i = 0; i < n; ++i) {
-      theta.values[static_cast<size_t>(cells[i])] = angle[i];
-      a.values[static_cast<size_t>(cells[i])] = arc[i];
-    }
+  ask(x, y, z, n, one, two);
+  for (size_t i = 0; i < n; ++i) {
+    first.values[static_cast<size_t>(cells[i])] = one[i];
+    second.values[static_cast<size_t>(cells[i])] = two[i];
   }
-};
+}
+
+auto places_on(const Apex& apex) {
+  return [&apex](auto... arguments) { apex.places_of(arguments...); };
+}
 
 }  // namespace
 
 void locate(Tissue& tissue, const Apex& apex) {
   if (!tissue.has_geometry()) fail("cells without geometry have no place on an apex");
   Column& theta = place_column(tissue, "theta");
-  Places{tissue, apex, theta, place_column(tissue, "a")}.update();
+  set_by_place(tissue, theta, place_column(tissue, "a"), places_on(apex));
 }
 
 namespace {
@@ -172,14 +173,11 @@ struct Followers {
     if (!theta || !a) apex = nullptr;
     if (!primordium || !closeness) bulges = nullptr;
   }
-  void update() const {
-    if (apex) Places{tissue, *apex, *theta, *a}.update();
-    if (bulges) differentiate(tissue, *bulges);
-  }
-  void update(const std::vector<Index>& cells) const {
-    if (apex) Places{tissue, *apex, *theta, *a}.update(cells);
-    for (const Index cell : cells)
-      if (bulges) differentiate(*primordium, *closeness, tissue, cell, *bulges);
+  /// @param cells  those that have moved; without, all
+  void update(const auto&... cells) const {
+    if (apex) set_by_place(tissue, *theta, *a, cells..., places_on(*apex));
+    const auto depths = [&](auto... arguments) { bulges->deepest(arguments...); };
+    if (bulges) set_by_place(tissue, *primordium, *closeness, cells..., depths);
   }
 };
 

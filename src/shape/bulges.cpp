@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "shape/apex_kernels.h"
 
 namespace tunica {
 
@@ -50,8 +51,7 @@ Bulges::State Bulges::state_at(double t) const {
       fail("radius and height of a primordium must be 0 or more; at age {} they are {} and {}", age, radius, height);
     state.flat = state.flat && !(radius > 0 && height > 0);
     if (radius > 0)
-      state.bumps.push_back(
-          {i, base_->advance(primordia_[i].place, primordia_[i].birth, age), radius, height, 1 / (radius * radius)});
+      state.bumps.push_back({i, base_->advance(primordia_[i].place, primordia_[i].birth, age), radius, height});
   }
   return state;
 }
@@ -113,7 +113,7 @@ const Bulges::Bump* Bulges::bump_at(const Vec3& p, double* fraction) const {
   const Bump* found = nullptr;
   double least = 1;
   for (const Bump& bump : now_.bumps) {
-    const double here = (b - bump.centre).squaredNorm() * bump.per_square;
+    const double here = (b - bump.centre).squaredNorm() * (1 / (bump.radius * bump.radius));
     if (here >= least) continue;
     least = here;
     found = &bump;
@@ -121,6 +121,25 @@ const Bulges::Bump* Bulges::bump_at(const Vec3& p, double* fraction) const {
   least = std::sqrt(least);
   if (found && fraction) *fraction = least;
   return found;
+}
+
+void Bulges::deepest(const double* x, const double* y, const double* z, size_t count, double* bump,
+                     double* depth) const {
+  std::vector<double> on_base;
+  if (!now_.flat) {
+    on_base.resize(3 * count);
+    for (size_t i = 0; i < count; ++i) {
+      const Vec3 b = base_->closest({x[i], y[i], z[i]});
+      for (size_t axis = 0; axis < 3; ++axis) on_base[axis * count + i] = b[static_cast<Eigen::Index>(axis)];
+    }
+    x = on_base.data(), y = x + count, z = y + count;
+  }
+  std::vector<Disc> discs;
+  for (const Bump& b : now_.bumps)
+    discs.push_back({b.centre.x(), b.centre.y(), b.centre.z(), 1 / (b.radius * b.radius)});
+  apex_kernels().deepest(discs.data(), static_cast<int>(discs.size()), x, y, z, static_cast<long>(count), bump, depth);
+  for (size_t i = 0; i < count; ++i)  // the number in the list becomes that of the primordium
+    if (bump[i] > 0) bump[i] = static_cast<double>(now_.bumps[static_cast<size_t>(bump[i]) - 1].which + 1);
 }
 
 // === The closest point: Newton's method for |S(b) - p|^2 over base points b = closest(b0 + u e + v f) around b0
@@ -231,10 +250,10 @@ Vec3 Bulges::normal(const Vec3& p) const {
 
 void grow(Tissue& tissue, Bulges& surface, double dt) {
   const double before = surface.time();
-  const std::vector<Vec3> positions = advanced(tissue, surface, before, dt);
+  std::vector<Vec3> positions = advanced(tissue, surface, before, dt);
   surface.set_time(before + dt);
   try {
-    move_junctions(tissue, positions, &surface);
+    move_junctions(tissue, std::move(positions), &surface);
   } catch (...) {
     surface.set_time(before);
     throw;
@@ -250,14 +269,9 @@ void differentiate(Tissue& tissue, const Bulges& surface) {
     return tissue.add_column(Kind::cell, std::move(made));
   };
   Column &primordium = column("primordium"), &closeness = column("closeness");
-  for (Index c = 0; c < tissue.cells(); ++c) differentiate(primordium, closeness, tissue, c, surface);
-}
-
-void differentiate(Column& primordium, Column& closeness, const Tissue& tissue, Index cell, const Bulges& surface) {
-  double fraction = 1;
-  const Bulges::Bump* bump = surface.bump_at(tissue.centroid(cell), &fraction);
-  primordium.values[static_cast<size_t>(cell)] = bump ? static_cast<double>(bump->which + 1) : 0;
-  closeness.values[static_cast<size_t>(cell)] = bump ? 1 - fraction : 0;
+  const auto centroid = [&](const char* axis) { return tissue.column(Kind::cell, axis).values.data(); };
+  surface.deepest(centroid("x"), centroid("y"), centroid("z"), static_cast<size_t>(tissue.cells()),
+                  primordium.values.data(), closeness.values.data());
 }
 
 }  // namespace tunica

@@ -32,7 +32,6 @@ class Bulges : public Surface {
     size_t which;  ///< in primordia()
     Vec3 centre;   ///< on the base
     double radius, height;
-    double per_square;  ///< 1 / radius^2
   };
 
   /// Errors: no base or function; a base without a known outside.
@@ -70,6 +69,9 @@ class Bulges : public Surface {
   /// The bump, now, in whose radius a point of the surface lies most deeply: least distance of its base point from the
   /// centre as a fraction of the radius (d_i / r in 5.10, 5.11); nullptr: outside all.
   const Bump* bump_at(const Vec3& p, double* fraction = nullptr) const;
+  /// The same of `count` points: number of the primordium, from 1, 0 outside all; and depth, 1 - that fraction.
+  void deepest(const double* x, const double* y, const double* z, size_t count, double* primordium,
+               double* depth) const;
 
  private:
   struct State {
@@ -102,7 +104,5 @@ void grow(Tissue& tissue, Bulges& surface, double dt);
 /// `closeness` (1 at its centre to 0 at its rim and outside: 1 - d/r of 5.10, 5.11) to the cells where they are
 /// missing, and sets them. Errors: no geometry.
 void differentiate(Tissue& tissue, const Bulges& surface);
-/// Sets these columns of one cell.
-void differentiate(Column& primordium, Column& closeness, const Tissue& tissue, Index cell, const Bulges& surface);
 
 }  // namespace tunica

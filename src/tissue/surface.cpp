@@ -24,10 +24,6 @@ const char* problem_of(const Tissue& tissue, Index cell, const std::vector<Vec3>
   return nullptr;
 }
 
-void set_all(Tissue& tissue, const std::vector<Vec3>& positions) {
-  for (Index j = 0; j < tissue.junctions(); ++j) tissue.set_position(j, positions[static_cast<size_t>(j)]);
-}
-
 /// Outward on each cell of a tissue that has been moved, by one of its corners; zero where that is at no finite place,
 /// since a surface cannot be asked about that.
 std::vector<Vec3> outward_of_cells(Tissue& tissue, const Surface& surface) {
@@ -65,16 +61,19 @@ std::string problem_of(Tissue& tissue, const Surface* surface, const std::vector
 
 }  // namespace
 
-void move_junctions(Tissue& tissue, const std::vector<Vec3>& positions, const Surface* surface) {
+void move_junctions(Tissue& tissue, std::vector<Vec3> positions, const Surface* surface) {
   if (tissue.locked()) fail("a tissue cannot move while rules run");
   if (!tissue.has_geometry()) fail("a tissue without geometry (line, ring, grid, cylinder) cannot be moved");
   if (positions.size() != static_cast<size_t>(tissue.junctions()))
     fail("{} positions for {} junctions", positions.size(), tissue.junctions());
   if (surface && !surface->has_outside()) surface = nullptr;
-  std::vector<Vec3> before, outward;
-  for (Index j = 0; j < tissue.junctions(); ++j) before.push_back(tissue.position(j));
+  std::vector<Vec3> outward;
   for (Index c = 0; c < tissue.cells() && !surface; ++c) outward.push_back(tissue.normal(c));
-  set_all(tissue, positions);
+  tissue.swap_positions(positions);  // and back, if this is not possible
+  const auto go_back = [&] {
+    tissue.swap_positions(positions);
+    tissue.refresh_geometry();
+  };
   std::string problem;
   try {
     if (surface) outward = outward_of_cells(tissue, *surface);
@@ -82,13 +81,11 @@ void move_junctions(Tissue& tissue, const std::vector<Vec3>& positions, const Su
     tissue.refresh_geometry(outward, doubtful);
     problem = problem_of(tissue, surface, outward, doubtful);
   } catch (...) {
-    set_all(tissue, before);
-    tissue.refresh_geometry();
+    go_back();
     throw;
   }
   if (problem.empty()) return;
-  set_all(tissue, before);
-  tissue.refresh_geometry();
+  go_back();
   fail("this movement is not possible: {}; the tissue stays as it was", problem);
 }
 

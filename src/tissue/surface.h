@@ -41,6 +41,6 @@ void grow(Tissue& tissue, const Surface& surface, double t, double dt);
 /// Puts the junctions at these positions (one each), with the checks and guarantees of grow().
 /// @param surface  for the outward side; nullptr, or no outside known: a cell may not turn over against where it faces
 /// now
-void move_junctions(Tissue& tissue, const std::vector<Vec3>& positions, const Surface* surface = nullptr);
+void move_junctions(Tissue& tissue, std::vector<Vec3> positions, const Surface* surface = nullptr);
 
 }  // namespace tunica

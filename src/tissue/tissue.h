@@ -76,6 +76,7 @@ class Tissue {
   const Vec3& position(Index junction) const { return position_[junction]; }
   /// Moves a junction. The caller calls refresh_geometry() when it has moved all.
   void set_position(Index junction, const Vec3& p) { position_[junction] = p; }
+  void swap_positions(std::vector<Vec3>& positions) { position_.swap(positions); }  ///< of all: one for each junction
   /// Recomputes area, centroid and lengths of everything / of one cell and its walls. Nothing without geometry.
   void refresh_geometry();
   void refresh_geometry(Index cell);
