@@ -112,12 +112,17 @@ int set_upvalue(lua_State* L) {
   });
 }
 
-/// Leaves the functions that list bytecode in the registry and takes the rest of the library `jit` away again.
+/// Leaves the functions that list bytecode, and LuaJIT's version, in the registry and takes the rest of the library
+/// `jit` away again.
 void open_bytecode_functions(lua_State* L) {
   lua_pushcfunction(L, luaopen_jit);
   lua_pushliteral(L, LUA_JITLIBNAME);
   lua_call(L, 1, 0);
   luaJIT_setmode(L, 0, LUAJIT_MODE_ENGINE | LUAJIT_MODE_OFF);
+  lua_getglobal(L, LUA_JITLIBNAME);
+  lua_getfield(L, -1, "version");
+  lua_setfield(L, LUA_REGISTRYINDEX, "tunica.luajit");
+  lua_pop(L, 1);
   lua_getfield(L, LUA_REGISTRYINDEX, "_PRELOAD");
   lua_getfield(L, -1, "jit.util");
   if (lua_isfunction(L, -1)) {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Every way in which Lua code enters: text only, and noted so that a run can be repeated from its directory.
+// Every way in which Lua code enters: text only, and noted so that a run can be repeated from its directory. What is
+// bytecode is the program's own, made of the library by its build.
 #include <filesystem>
 #include <sstream>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "lua/compiled_library.h"
 #include "lua/guard.h"
 #include "lua/state.h"
 
@@ -108,7 +110,7 @@ int find_library(lua_State* L) {
       lua_pushfstring(L, "\n\tthe library has no part '%s' (%s)", name.c_str(), path.c_str());
       return 1;
     }
-    load_text(L, read_file(path, largest_source), "=tunica/" + file + ".lua");
+    load_part(L, file, read_file(path, largest_source));
     lua_pushcclosure(L, run_library_chunk, 1);
     return 1;
   });
