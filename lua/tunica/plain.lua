@@ -142,11 +142,49 @@ function plain.upvalues(list)
   return { values = values, missing = missing }
 end
 
+local simple = { number = true, string = true, boolean = true }
+
+--- A table copied, as far as it holds numbers, text, booleans and such tables, so that `same` can compare it; else nil.
+local function copy_of(value, depth)
+  local copy = {}
+  for k, v in pairs(value) do
+    if not simple[type(k)] then return nil end
+    if simple[type(v)] then
+      copy[k] = v
+    elseif is_plain_table(v) then
+      copy[k] = depth < 10 and copy_of(v, depth + 1) or nil
+      if not copy[k] then return nil end
+    else
+      return nil
+    end
+  end
+  return copy
+end
+
+local function same(value, copy)
+  for k, v in pairs(copy) do
+    local now = value[k]
+    if now ~= v and not (type(v) == "table" and is_plain_table(now) and same(now, v)) then return false end
+  end
+  for k in pairs(value) do
+    if copy[k] == nil then return false end
+  end
+  return true
+end
+
 --- A function that tells whether the plain upvalues of these functions are what they are now, without gathering them. What is no
 -- table is compared as it is.
 function plain.watch(list)
   local watched, tables, seen = {}, {}, {}
-  local function text_of(value) return plain.encode(kept[value] and kept[value].get() or value) end
+  local function state_of(value) return kept[value] and kept[value].get() or value end
+  local function watch_table(value)
+    local copy = copy_of(state_of(value), 1)
+    local text = not copy and plain.encode(state_of(value))
+    tables[#tables + 1] = function()
+      if copy then return same(state_of(value), copy) end
+      return plain.encode(state_of(value)) == text
+    end
+  end
   local function walk(fn)
     local about = debug.getinfo(fn, "S")
     if seen[fn] or about.what == "C" or about.source:sub(1, #library) == library then return end
@@ -156,7 +194,7 @@ function plain.watch(list)
       local value = upvalue[2]
       values[i] = value
       if type(value) == "function" then walk(value)
-      elseif value ~= nil and (kept[value] or is_plain_table(value)) then tables[#tables + 1] = { value, text_of(value) } end
+      elseif value ~= nil and (kept[value] or is_plain_table(value)) then watch_table(value) end
     end
     watched[#watched + 1] = { fn, values }
   end
@@ -165,8 +203,8 @@ function plain.watch(list)
     for _, w in ipairs(watched) do
       if not core.same_upvalues(w[1], w[2]) then return false end
     end
-    for _, t in ipairs(tables) do
-      if text_of(t[1]) ~= t[2] then return false end
+    for _, unchanged in ipairs(tables) do
+      if not unchanged() then return false end
     end
     return true
   end

@@ -28,6 +28,17 @@ class ByteWriter {
     if (count) bytes_.append(reinterpret_cast<const char*>(data), count * sizeof(T));
   }
   void text(std::string_view s) { array(s.data(), s.size()); }
+  void reserve(size_t size) { bytes_.reserve(size); }
+  /// A text that is written piece by piece: begin_text() ... end_text(what that gave). Returns the text.
+  size_t begin_text() {
+    put(uint64_t{0});
+    return bytes_.size();
+  }
+  std::string_view end_text(size_t begin) {
+    const uint64_t size = bytes_.size() - begin;
+    std::memcpy(bytes_.data() + begin - sizeof size, &size, sizeof size);
+    return std::string_view(bytes_).substr(begin);
+  }
   const std::string& bytes() const { return bytes_; }
   std::string take() { return std::move(bytes_); }
 

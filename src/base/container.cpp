@@ -11,18 +11,22 @@ constexpr uint32_t version = 1;
 constexpr size_t hash_size = 16;
 }  // namespace
 
-std::string pack_sections(const std::map<std::string, std::string>& sections) {
-  ByteWriter body;
-  body.put(static_cast<uint32_t>(sections.size()));
+std::string pack_sections(const std::map<std::string, std::string_view>& sections) {
+  size_t size = sizeof(uint32_t);
+  for (const auto& [name, bytes] : sections) size += 2 * sizeof(uint64_t) + name.size() + bytes.size();
+  ByteWriter out;
+  out.reserve(size + 64);
+  out.put(version);
+  const size_t body = out.begin_text();
+  out.put(static_cast<uint32_t>(sections.size()));
   for (const auto& [name, bytes] : sections) {
-    body.text(name);
-    body.text(bytes);
+    out.text(name);
+    out.text(bytes);
   }
-  ByteWriter head;
-  head.put(version);
-  head.put(static_cast<uint64_t>(body.bytes().size()));
-  const std::string checked = head.bytes() + body.bytes();
-  return std::string(magic) + hash(checked) + checked;
+  out.end_text(body);
+  std::string packed(magic);
+  packed.reserve(magic.size() + hash_size + out.bytes().size());
+  return packed.append(hash(out.bytes())).append(out.bytes());
 }
 
 std::map<std::string, std::string> unpack_sections(std::string_view bytes) {

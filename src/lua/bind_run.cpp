@@ -176,10 +176,13 @@ int shortest(lua_State* L) {
 int pack(lua_State* L) {
   return guard(L, [&] {
     luaL_checktype(L, 1, LUA_TTABLE);
-    std::map<std::string, std::string> sections;
+    std::map<std::string, std::string_view> sections;  // the table holds the texts meanwhile
     for (lua_pushnil(L); lua_next(L, 1); lua_pop(L, 1)) {
       if (lua_type(L, -2) != LUA_TSTRING) fail("pack: expected text keys, got {}", luaL_typename(L, -2));
-      sections[lua_tostring(L, -2)] = text_at(L, lua_gettop(L));
+      if (lua_type(L, -1) != LUA_TSTRING) fail("pack: expected texts, got {}", luaL_typename(L, -1));
+      size_t size = 0;
+      const char* bytes = lua_tolstring(L, -1, &size);
+      sections[lua_tostring(L, -2)] = {bytes, size};
     }
     push_text(L, pack_sections(sections));
     return 1;

@@ -70,9 +70,7 @@ std::string Rescue::write() {
     if (parts_.size() == 1 && parts_.begin()->first.empty()) {
       write_atomic(path_, parts_.begin()->second);
     } else {
-      std::map<std::string, std::string> sections;
-      for (const auto& [name, bytes] : parts_) sections[name] = bytes;
-      write_atomic(path_, pack_sections(sections));
+      write_atomic(path_, pack_sections(parts_));
     }
     written_ = true;
     return note_;

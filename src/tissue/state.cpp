@@ -44,27 +44,27 @@ void expect_size(size_t size, size_t expected, const char* what) {
 }  // namespace
 
 void Tissue::save(ByteWriter& out) const {
-  ByteWriter body;
-  body.put(static_cast<uint8_t>(geometry_));
-  body.put(seed_);
+  out.text(magic);
+  const size_t body = out.begin_text();
+  out.put(static_cast<uint8_t>(geometry_));
+  out.put(seed_);
   for (size_t kind = 0; kind < kinds; ++kind) {
-    body.array(ids_[kind].data(), ids_[kind].size());
-    body.array(index_of_[kind].data(), index_of_[kind].size());
-    body.put(static_cast<uint32_t>(columns_[kind].size()));
-    for (const auto& column : columns_[kind]) save_column(body, *column);
+    out.array(ids_[kind].data(), ids_[kind].size());
+    out.array(index_of_[kind].data(), index_of_[kind].size());
+    out.put(static_cast<uint32_t>(columns_[kind].size()));
+    for (const auto& column : columns_[kind]) save_column(out, *column);
   }
-  for (const auto* array : {&cell_side_, &wall_side_, &junction_side_}) body.array(array->data(), array->size());
+  for (const auto* array : {&cell_side_, &wall_side_, &junction_side_}) out.array(array->data(), array->size());
   std::vector<Index> links;
   links.reserve(5 * side_.size());
   for (const Side& s : side_) links.insert(links.end(), {s.next, s.previous, s.cell, s.wall, s.start});
-  body.array(links.data(), links.size());
+  out.array(links.data(), links.size());
   std::vector<double> coordinates;
   coordinates.reserve(3 * position_.size());
   for (const Vec3& p : position_) coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
-  body.array(coordinates.data(), coordinates.size());
-  out.text(magic);
-  out.text(body.bytes());
-  out.text(tunica::hash(body.bytes()));
+  out.array(coordinates.data(), coordinates.size());
+  const std::string sum = tunica::hash(out.end_text(body));
+  out.text(sum);
 }
 
 std::string Tissue::hash() const {
