@@ -9,14 +9,14 @@ local shoot = require "parts.shoot"
 
 local P = tunica.params(shoot.with({}, {
   after = { 4, "from when on a primordium about to start is looked for", unit = "time", min = 0 },
-  incipient = { 0.6, "auxin outside primordia at which it is found, as a share of the threshold", min = 0, max = 1 },
+  incipient = { 0.7, "auxin outside primordia at which it is found, as a share of the threshold", min = 0, max = 1 },
   count = { 5, "how many cells are killed there", min = 0, max = 1000 },
 }))
 
 if P.count ~= math.floor(P.count) then error("count must be a whole number, came " .. P.count, 0) end
 local my = shoot.apex(P)
 my.tissue:cell { living = 1 }
-my.mortal, my.stop = true, P.after + 4
+my.mortal, my.stop = true, P.after + 6
 local model = shoot.model(my)
 local found = {}  -- the place, and how many primordia there were
 shoot.report(my, nil, {

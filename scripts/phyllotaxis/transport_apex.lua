@@ -23,9 +23,10 @@ local P = tunica.params(shoot.with({}, {
     decussate = { jugacy = 2, angle = 90, initial = 8, plastochron = 3, b = 4.171, radius = 1.949, central = 2.275, growth = 0.109,
       growth_tip = 1.366, growth_to = 2.802, r_most = 2.122, r_rate = 1.262, mu = 0.2301, kI = 0.359, most = 15.99, rho_pin0 = 2.52,
       slope = 75.12, dt = 0.0022 },
-    tricussate = { jugacy = 3, angle = 60, initial = 12, plastochron = 3, b = 4.438, radius = 3.178, central = 3.202,
-      growth = 0.09135, growth_tip = 1.522, growth_to = 3.997, r_most = 2.034, r_rate = 1.71, mu = 0.2059, kI = 0.3801, most = 15.73,
-      rho_pin0 = 2.35, slope = 73.59, dt = 0.0022 },
+    tricussate = { jugacy = 3, angle = 60, initial = 12, plastochron = 3, b = 5.159, radius = 3.961, central = 3.445,
+      peripheral = 3.062, growth = 0.0816, growth_tip = 1.573, growth_to = 4.207, growth_over = 0.2574, r_birth = 1.066,
+      r_most = 2.767, r_rate = 2.418, mu = 0.2094, kI = 0.2797, kT = 1.23, kP = 1.105, most = 21.27, rho_pin0 = 2.195,
+      rho_pin = 0.4482, mu_pin = 1.712, slope = 64.95, first = 0.3497, max_area = 0.1802, dt = 0.0013 },
   },
 }))
 

@@ -29,15 +29,16 @@ for seed in 1 2 3; do
   between widest_gap 0 65
 done
 
-# Ablation displaces or delays what is about to start.
-for seed in 1 2 3; do
-  run ablation --until 8 count=0 --seed $seed
-  control=$(value next_angle) soon=$(value delay)
-  run ablation --until 8 --seed $seed
-  between displaced 0 60
-  awk -v a="$control" -v b="$(value next_angle)" -v s="$soon" -v d="$(value delay)" 'BEGIN { exit !(a != b && d > s) }' ||
-    wrong "ablation changes nothing (seed $seed)"
+# Ablation displaces and delays what is about to start; on a single mesh by chance not always.
+: >ablated.txt
+for seed in 1 2 3 4 5 6; do
+  run ablation --until 10 count=0 --seed $seed
+  control="$(value delay) $(value displaced)"
+  run ablation --until 10 --seed $seed
+  echo "$control $(value delay) $(value displaced)" >>ablated.txt
 done
+awk '{ d += $3 - $1; a += $2; b += $4 } END { exit !(d / NR > 0.1 && b > a + 6 * NR) }' ablated.txt ||
+  wrong "ablation changes nothing: $(cat ablated.txt)"
 
 # What is wrong is said, and where a step is too long too.
 code 1 "$tunica" phyllotaxis/ablation count=1000 --until 8 --no-frames -q --out bad
