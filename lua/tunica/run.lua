@@ -313,7 +313,9 @@ local function finish(self)
   local report = outputs.reports(model)
   self.report = report
   local size, unit = outputs.size(model)
-  self.result = { time = model.time, steps = model.steps, [unit] = size, hash = model:hash(), report = {} }
+  self.last = take_state(self)
+  -- As model:hash().
+  self.result = { time = model.time, steps = model.steps, [unit] = size, hash = core.hash(self.last.model), report = {} }
   for _, entry in ipairs(report) do self.result.report[entry.name] = entry.value end
 end
 
@@ -326,8 +328,8 @@ end
 
 --- After an interruption or an error: writes what is whole, and says where. Returns where the checkpoint is, or nil.
 local function keep(self)
-  local state
-  if not self.advancing or self.model.failure then
+  local state = self.status == "done" and self.last
+  if not state and (not self.advancing or self.model.failure) then
     local ok, fresh = pcall(take_state, self)
     state = ok and fresh or nil
   end

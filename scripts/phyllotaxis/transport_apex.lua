@@ -3,7 +3,7 @@
 --         primordium starts; it drains its surroundings, so that the next arises where the gap is widest: a spiral, or whorls.
 -- HOW     PIN1 goes to walls by their length and, exponentially, by the auxin behind them (5.7); PIN1 and auxin are made and decay
 --         (5.8, 5.9). Primordia make more auxin, polarize PIN1 towards their centre (5.10, 5.11) and drain what is above a limit.
--- TRY     variant=fine (47 cells around in place of 24: the spiral lasts longer)   variant=distichous   variant=decussate
+-- TRY     variant=fine (54 cells around in place of 24: the spiral lasts)   variant=distichous   variant=decussate
 --         variant=tricussate   initial=0 (no primordia at the start)
 --         r_birth=0.5 r_most=0.6 (primordia that stay small: no spiral)   scatter=8 (a disturbed start)   dt=0.02 (fails)   height=0.5 (primordia bulge)
 -- SOURCE  R. S. Smith, PhD thesis, University of Calgary 2007, section 5.5, figs 5.8-5.11, table 5.1
@@ -11,15 +11,14 @@ local tunica = require "tunica"
 local shoot = require "parts.shoot"
 
 local P = tunica.params(shoot.with({}, {
-  variant = { "fibonacci", "the pattern: fibonacci, distichous, decussate, tricussate; or fine, a spiral of more cells that lasts longer" },
+  variant = { "fibonacci", "the pattern: fibonacci, distichous, decussate, tricussate; or fine, a spiral of more cells that lasts" },
   variants = {
     fibonacci = {},
-    fine = { radius = 1.95, slope = 58.2, growth = 0.06387, growth_tip = 2.736, growth_to = 1.419, growth_over = 0.6254,
-      central = 2.745, peripheral = 3.154, max_area = 0.2093, mu = 0.6244, kI = 0.07502, kT = 1.313, most = 27.01,
-      rho_pin0 = 10.88, rho_pin = 0.8191, kP = 1.933, mu_pin = 4.534, r_birth = 1.673, r_rate = 0.515, r_most = 2.436,
-      first = 0.3492, dt = 0.0018 },
-    distichous = { angle = 180, initial = 6, plastochron = 4, radius = 0.9, central = 1.026, growth = 0.11,
-      growth_to = 1.26, r_most = 2.1 },
+    fine = { radius = 1.936, slope = 63.18, growth = 0.06789, growth_tip = 2.544, growth_to = 1.245, growth_over = 0.427,
+      central = 3.248, peripheral = 3.124, max_area = 0.17, mu = 0.6017, kI = 0.0645, kT = 1.387, most = 29.46, rho_pin0 = 11,
+      rho_pin = 0.956, kP = 2.095, mu_pin = 4.402, r_birth = 1.902, r_rate = 0.6237, r_most = 2.71, first = 0.3538, dt = 0.0015 },
+    distichous = { angle = 180, initial = 6, plastochron = 4, radius = 0.9, central = 0.95, growth = 0.11,
+      growth_to = 1.26, r_most = 2.3, dt = 0.0035 },
     decussate = { jugacy = 2, angle = 90, initial = 8, plastochron = 3, b = 4.171, radius = 1.949, central = 2.275, growth = 0.109,
       growth_tip = 1.366, growth_to = 2.802, r_most = 2.122, r_rate = 1.262, mu = 0.2301, kI = 0.359, most = 15.99, rho_pin0 = 2.52,
       slope = 75.12, dt = 0.0022 },

@@ -64,7 +64,7 @@ says err.txt "did you mean 'decussate'"
 # The spiral lasts on a fine mesh; without discs there is none. (How well: share/doc/transport.md. By chance .15 of the angles count.)
 code 0 "$tunica" sweep phyllotaxis/transport_apex variant=fine --seeds 1..6 --until 24 --score spiral --winners 0 -q --out fine.db
 code 0 "$tunica" sweep show fine.db --csv
-awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "spiral") at = i } NR > 1 { sum += $at; ++n } END { exit !(n == 6 && sum / n >= 0.7) }' out.txt ||
+awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "spiral") at = i } NR > 1 { sum += $at; ++n } END { exit !(n == 6 && sum / n >= 0.8) }' out.txt ||
   wrong "the spiral of variant=fine does not last"
 
 # A run that was stopped goes on with the same bits, primordia included.
