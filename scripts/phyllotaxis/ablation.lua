@@ -16,7 +16,7 @@ local P = tunica.params(shoot.with({}, {
 if P.count ~= math.floor(P.count) then error("count must be a whole number, came " .. P.count, 0) end
 local my = shoot.apex(P)
 my.tissue:cell { living = 1 }
-my.mortal, my.stop = true, P.after + 6
+my.mortal, my.stop = true, P.after + 4
 local model = shoot.model(my)
 local found = {}  -- the place, and how many primordia there were
 shoot.report(my, nil, {
