@@ -164,7 +164,8 @@ end
 local function same(value, copy)
   for k, v in pairs(copy) do
     local now = value[k]
-    if now ~= v and not (type(v) == "table" and is_plain_table(now) and same(now, v)) then return false end
+    local alike = now == v or now ~= now and v ~= v or type(v) == "table" and is_plain_table(now) and same(now, v)
+    if not alike then return false end
   end
   for k in pairs(value) do
     if copy[k] == nil then return false end
@@ -181,8 +182,9 @@ function plain.watch(list)
     local copy = copy_of(state_of(value), 1)
     local text = not copy and plain.encode(state_of(value))
     tables[#tables + 1] = function()
-      if copy then return same(state_of(value), copy) end
-      return plain.encode(state_of(value)) == text
+      local now = state_of(value)
+      if copy then return is_plain_table(now) and same(now, copy) end
+      return plain.encode(now) == text
     end
   end
   local function walk(fn)

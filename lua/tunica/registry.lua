@@ -235,7 +235,8 @@ local function gather(entry, ...)
 end
 
 local function check_named(entry, self, ...)
-  local given, out, by_key, args, others = gather(entry, ...), {}, entry.by_key, entry.args, false
+  local given, out, by_key, args = gather(entry, ...), {}, entry.by_key, entry.args
+  local others = getmetatable(given) ~= nil  -- one like tunica.params shows what it holds to `pairs` alone
   for key, value in next, given do
     if by_key[key] then out[key] = value else others = true end
   end

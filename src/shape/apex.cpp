@@ -139,7 +139,7 @@ void Apex::places_of(const double* x, const double* y, const double* z, size_t c
   if (view) apex_kernels().locate(*view, x, y, z, static_cast<long>(count), theta, a);
   for (size_t i = 0; i < count; ++i) {
     const Vec3 p(x[i], y[i], z[i]);
-    if (!view) theta[i] = place_of(p).theta * 180 / std::numbers::pi;
+    if (!view) theta[i] = p.x() == 0 && p.z() == 0 ? 0 : std::atan2(p.z(), p.x()) * 180 / std::numbers::pi;
     if (!view || std::isnan(a[i])) a[i] = arc_of(p);
   }
 }

@@ -162,25 +162,31 @@ void ApexTables::tabulate(const Flow& flow) {
       },
       3e-12 * speed_at_last_ / last_);
   const auto speed = [&](double a) { return a * relative_speed.value(relative_speed.find(a), 0); };
-  const auto between = [&](double from, double to) {
-    return gauss<6>([&](double a) { return 1 / speed(a); }, from, to);
-  };
-  std::vector<double> start, begun = {flow.time(first)};
-  for (size_t i = 0; i < relative_speed.steps(); ++i) start.push_back(relative_speed.start(i));
-  for (size_t i = 0; i + 1 < start.size(); ++i) begun.push_back(begun.back() + between(start[i], start[i + 1]));
-  const auto time = [&](double log_a, Table<1>::Values& value, Table<1>::Values& slope) {
-    const double a = std::clamp(std::exp(log_a), first, last_);
-    if (!relative_speed) {
-      value = {flow.time(a)}, slope = {a / flow.speed(a)};
-      return;
-    }
-    const size_t step = relative_speed.find(a).step;
-    value = {begun[step] + between(start[step], a)}, slope = {a / speed(a)};
-  };
-  const double unit = last_ / speed_at_last_;
-  clock_ = Table<1>(breaks, time, 3e-11 * unit);
-  for (size_t i = 0; i < clock_.steps(); ++i) times_.push_back(clock_.value({i, 0, 1}, 0));
+  // Over da first; where the speed is so even that the steps of its table are wide, 1 / v bends too much within one,
+  // and a / v over the logarithm of a does not.
+  for (const bool by_log : {false, true}) {
+    const auto between = [&](double from, double to) {
+      if (!by_log) return gauss<6>([&](double a) { return 1 / speed(a); }, from, to);
+      const auto per_log = [&](double log_a) { return std::exp(log_a) / speed(std::exp(log_a)); };
+      return gauss<6>(per_log, std::log(from), std::log(to));
+    };
+    std::vector<double> start, begun = {flow.time(first)};
+    for (size_t i = 0; i < relative_speed.steps(); ++i) start.push_back(relative_speed.start(i));
+    for (size_t i = 0; i + 1 < start.size(); ++i) begun.push_back(begun.back() + between(start[i], start[i + 1]));
+    const auto time = [&](double log_a, Table<1>::Values& value, Table<1>::Values& slope) {
+      const double a = std::clamp(std::exp(log_a), first, last_);
+      if (!relative_speed) {
+        value = {flow.time(a)}, slope = {a / flow.speed(a)};
+        return;
+      }
+      const size_t step = relative_speed.find(a).step;
+      value = {begun[step] + between(start[step], a)}, slope = {a / speed(a)};
+    };
+    clock_ = Table<1>(breaks, time, 3e-11 * last_ / speed_at_last_);
+    if (clock_) break;
+  }
   if (!clock_) return;
+  for (size_t i = 0; i < clock_.steps(); ++i) times_.push_back(clock_.value({i, 0, 1}, 0));
   times_.push_back(clock_.value({clock_.steps() - 1, 1, 1}, 0));
   by_time_ = buckets(times_);
 }

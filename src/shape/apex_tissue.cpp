@@ -62,14 +62,16 @@ Tissue one_cell(const Apex& apex, double area, uint64_t seed) {
 
 /// The nearest and the farthest place of the border, as arc lengths.
 std::pair<double, double> front(const Tissue& tissue, const Apex& apex) {
-  double nearest = INFINITY, farthest = 0;
+  std::vector<double> x, y, z;
   for (Index s = 0; s < tissue.sides(); ++s) {
     if (tissue.opposite(s) != none) continue;
-    const double a = apex.arc_of(tissue.position(tissue.start(s)));
-    nearest = std::min(nearest, a);
-    farthest = std::max(farthest, a);
+    const Vec3& p = tissue.position(tissue.start(s));
+    x.push_back(p.x()), y.push_back(p.y()), z.push_back(p.z());
   }
-  return {nearest, farthest};
+  std::vector<double> theta(x.size()), a(x.size());
+  apex.places_of(x.data(), y.data(), z.data(), x.size(), theta.data(), a.data());
+  const auto [nearest, farthest] = std::minmax_element(a.begin(), a.end());
+  return {*nearest, *farthest};
 }
 
 double fastest(const Apex& apex, double to) {

@@ -114,7 +114,7 @@ const Bulges::Bump* Bulges::bump_at(const Vec3& p, double* fraction) const {
   double least = 1;
   for (const Bump& bump : now_.bumps) {
     const double here = (b - bump.centre).squaredNorm() * (1 / (bump.radius * bump.radius));
-    if (here >= least) continue;
+    if (!(here < least)) continue;
     least = here;
     found = &bump;
   }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
 #include "base/error.h"
@@ -67,7 +66,7 @@ FlatCell::FlatCell(const Tissue& tissue, Index cell, const std::vector<Vec3>& co
   for (Vec2& p : points) p -= centroid;
   star_shaped = is_star_shaped(*this);
   centroid_inside =
-      star_shaped || contains(points, Vec2::Zero()) && distance_to_outline(*this) > 1e-9 * std::sqrt(area);
+      star_shaped || (contains(points, Vec2::Zero()) && distance_to_outline(*this) > 1e-9 * std::sqrt(area));
 }
 
 std::vector<Hit> hits_along(const FlatCell& cell, const Vec2& direction) {

@@ -104,3 +104,28 @@ local hash = model:hash()
 model:restore(snapshot)
 model:advance { to = 0.6 }
 check.equal(model:hash(), hash)
+
+-- A table that a rule holds and an event changes, also behind a metatable or back from no number: rates follow at once.
+for what, change in pairs {
+  key = function(K) K.y = 5 end,
+  metatable = function(K) setmetatable(K, { __index = { y = 5 } }) end,
+  nan = function(K) K.z = nil K.y = 5 end,
+} do
+  local K, count = { x = 1, z = 0 / 0 }, 0
+  local changed, t = ring(function(c, d) d.auxin = (K.x or 0) + (K.y or 0) end)
+  local before = t:find(1).auxin
+  changed:every(1, function()
+    count = count + 1
+    if count == 20 then change(K) end
+  end)
+  changed:advance { to = 22 }
+  check.near(t:find(1).auxin, before + 20 * 1 + 2 * 6, 1e-9, what)
+end
+
+-- Parameters as options are looked at by name.
+do
+  local _, t = ring(function(c, d) d.auxin = 0 end)
+  t:cell(setmetatable({}, { __pairs = function() return next, { level = 2 } end }))
+  check.equal(t:find(1).level, 2)
+  check.fails(function() tunica.sheet(setmetatable({}, { __pairs = function() return next, { cels = 5 } end })) end, "did you mean 'cells'")
+end

@@ -84,6 +84,22 @@ TEST(ApexTables, ManyAtOnceAreAsOneByOne) {
   }
 }
 
+/// Growth that is even makes tables too, for points one by one and many at once.
+TEST(ApexTables, ServeEvenGrowth) {
+  for (const Curve& growth : {Curve({{0, .2}, {4, .2}}), Curve({{0, .2}, {20, .2}}), Curve({{0, .25}, {4, .1}}),
+                              Curve({{0, .2}, {2, .2}, {8, .2}})}) {
+    const Profile profile = Profile::cap(1.45, 1.3, 9);
+    const Flow flow(growth);
+    ApexTables tables;
+    EXPECT_TRUE(tables.ready(profile, flow).view());
+    for (const double a : {.1, .5, 1., 3., 6.}) {
+      const auto after = tables.after(a, .7);
+      ASSERT_TRUE(after) << a;
+      EXPECT_NEAR(*after, flow.after(a, .7), 1e-9 * (1 + a));
+    }
+  }
+}
+
 TEST(ApexTables, InstructionSetsGiveTheSameBits) {
   if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "only one here";
   Dice dice(10);
