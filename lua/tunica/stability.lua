@@ -17,7 +17,7 @@ local most_strides = 20
 local fewest_steps = 10                         -- a longer step is not tried: instability could not show
 local too_large = 100                           -- times the greatest value at the start and the end: no longer bounded
 -- Where the step times the spectral radius may be, at most, for rates whose derivative has negative real eigenvalues.
-local limits = { euler = 2, heun = 2, rk4 = 2.785 }
+local limits = { euler = 2, sts = 21.89, heun = 2, rk4 = 2.785 }
 
 --- begin(model, options) -> the study. Errors: of the command line.
 function stability.begin(model, options)

@@ -5,7 +5,8 @@
 --         (5.8, 5.9). Primordia make more auxin, polarize PIN1 towards their centre (5.10, 5.11) and drain what is above a limit.
 -- TRY     variant=fine (54 cells around in place of 24: the spiral lasts)   variant=distichous   variant=decussate
 --         variant=tricussate   initial=0 (no primordia at the start)
---         r_birth=0.5 r_most=0.6 (primordia that stay small: no spiral)   scatter=8 (a disturbed start)   dt=0.02 (fails)   height=0.5 (primordia bulge)
+--         r_birth=0.5 r_most=0.6 (primordia that stay small: no spiral)   scatter=8 (a disturbed start)
+--         method=euler dt=0.02 (fails)   height=0.5 (primordia bulge)
 -- SOURCE  R. S. Smith, PhD thesis, University of Calgary 2007, section 5.5, figs 5.8-5.11, table 5.1
 local tunica = require "tunica"
 local shoot = require "parts.shoot"
@@ -16,16 +17,16 @@ local P = tunica.params(shoot.with({}, {
     fibonacci = {},
     fine = { radius = 1.936, slope = 63.18, growth = 0.06789, growth_tip = 2.544, growth_to = 1.245, growth_over = 0.427,
       central = 3.248, peripheral = 3.124, max_area = 0.17, mu = 0.6017, kI = 0.0645, kT = 1.387, most = 29.46, rho_pin0 = 11,
-      rho_pin = 0.956, kP = 2.095, mu_pin = 4.402, r_birth = 1.902, r_rate = 0.6237, r_most = 2.71, first = 0.3538, dt = 0.0015 },
+      rho_pin = 0.956, kP = 2.095, mu_pin = 4.402, r_birth = 1.902, r_rate = 0.6237, r_most = 2.71, first = 0.3538, dt = 0.02 },
     distichous = { angle = 180, initial = 6, plastochron = 4, radius = 0.9, central = 0.95, growth = 0.11,
-      growth_to = 1.26, r_most = 2.3, dt = 0.0035 },
+      growth_to = 1.26, r_most = 2.3, dt = 0.025 },
     decussate = { jugacy = 2, angle = 90, initial = 8, plastochron = 3, b = 4.171, radius = 1.949, central = 2.275, growth = 0.109,
       growth_tip = 1.366, growth_to = 2.802, r_most = 2.122, r_rate = 1.262, mu = 0.2301, kI = 0.359, most = 15.99, rho_pin0 = 2.52,
-      slope = 75.12, dt = 0.0022 },
+      slope = 75.12, dt = 0.025 },
     tricussate = { jugacy = 3, angle = 60, initial = 12, plastochron = 3, b = 5.159, radius = 3.961, central = 3.445,
       peripheral = 3.062, growth = 0.0816, growth_tip = 1.573, growth_to = 4.207, growth_over = 0.2574, r_birth = 1.066,
       r_most = 2.767, r_rate = 2.418, mu = 0.2094, kI = 0.2797, kT = 1.23, kP = 1.105, most = 21.27, rho_pin0 = 2.195,
-      rho_pin = 0.4482, mu_pin = 1.712, slope = 64.95, first = 0.3497, max_area = 0.1802, dt = 0.0013 },
+      rho_pin = 0.4482, mu_pin = 1.712, slope = 64.95, first = 0.3497, max_area = 0.1802, dt = 0.02 },
   },
 }))
 

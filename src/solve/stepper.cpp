@@ -13,6 +13,7 @@ const std::vector<MethodInfo>& methods() {
   using Steps = Stepper::Steps;
   static const std::vector<MethodInfo> table{
       {"euler", "forward Euler", 1, Steps::fixed, false, make_euler},
+      {"sts", "super-time-stepping, five unequal Euler steps, for diffusion", 1, Steps::fixed, false, make_sts},
       {"heun", "explicit trapezoid (Heun)", 2, Steps::fixed, false, make_heun},
       {"rk4", "classical Runge-Kutta", 4, Steps::fixed, false, make_rk4},
       {"bs32", "Bogacki-Shampine 3(2)", 3, Steps::adaptive, false, make_bs32},

@@ -51,12 +51,13 @@ for _, step in ipairs { 0.05, 0.1, 0.2, 0.4 } do
   end
   local far = error_of_growth(my, step)
   local model = shoot.model(my)
-  model:advance(P.dt)
+  model:solve_with { method = "euler", dt = 0.004 }  -- a step of it is one evaluation
+  model:advance(0.004)
   local count = 40  -- within one step of growth
   local evaluation = math.huge
   for k = 1, 5 do
     local from = model.time
-    evaluation = math.min(evaluation, seconds(function() model:advance(from + count * P.dt / 5) end) / (count / 5))
+    evaluation = math.min(evaluation, seconds(function() model:advance(from + count * 0.004 / 5) end) / (count / 5))
   end
   local ms = 1e3 / 200
   print(string.format("%6g %6d %10.1f %8.3f %8.3f %8.3f %9.3f %11.4f %23.1f %8.1e", step, #tissue, divisions / 200, least.spent[1] * ms,

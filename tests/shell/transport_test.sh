@@ -56,8 +56,11 @@ for bad in initial=2.5 jugacy=1.5 most=800 max_area=1000 max_area=0.0001; do
   says err.txt "${bad%=*}"
   rm -rf bad6
 done
-code 3 "$tunica" phyllotaxis/transport_apex dt=0.02 --until 10 --no-frames -q --out long
+code 3 "$tunica" phyllotaxis/transport_apex method=euler dt=0.02 --until 10 --no-frames -q --out long
 says err.txt "try a smaller dt"
+rm -rf long
+code 3 "$tunica" phyllotaxis/transport_apex dt=0.1 --until 10 --no-frames -q --out long
+says err.txt "method's limit of about"
 code 2 "$tunica" phyllotaxis/transport_apex variant=decusate --no-frames -q
 says err.txt "did you mean 'decussate'"
 

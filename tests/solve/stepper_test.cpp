@@ -28,6 +28,7 @@ double order_of(const std::string& method, double dt, const std::vector<double>&
 TEST(Stepper, FixedMethodsHaveTheirOrders) {
   const std::vector<double> reference = smooth_reference();
   EXPECT_NEAR(order_of("euler", 1.0 / 512, reference), 1, .05);
+  EXPECT_NEAR(order_of("sts", 1.0 / 64, reference), 1, .05);
   EXPECT_NEAR(order_of("heun", 1.0 / 64, reference), 2, .05);
   EXPECT_GE(order_of("rk4", 1.0 / 32, reference), 3.9);
   EXPECT_LE(order_of("rk4", 1.0 / 32, reference), 4.2);
@@ -48,6 +49,34 @@ TEST(Stepper, AdaptiveMethodsFollowTheTolerance) {
       EXPECT_GT(solver->work().evaluations, evaluations);
       evaluations = solver->work().evaluations;
     }
+  }
+}
+
+/// The largest value on a ring of 30 after 40 steps of diffusion from one cell with 1, signs allowed: rates -4 to 0.
+double after_diffusion(const std::string& method, double dt) {
+  Problem p;
+  Writer w{*p.equations};
+  const NodeId u = w.cell("u");
+  w.rate("u", w.sum(w.sub(w.across(u), w.own(u))));
+  p.tissue = std::make_shared<Tissue>(ring(30));
+  p.tissue->add_column(Kind::cell, {.name = "u"}).values[7] = 1;
+  p.signed_columns = {"u"};
+  const auto solver = p.solve(method, dt);
+  try {
+    run(*solver, p, 40 * dt);
+  } catch (const Error&) {
+    return INFINITY;  // it was seen to swing
+  }
+  double most = 0;
+  for (const double value : values(*solver)) most = std::max(most, std::fabs(value));
+  return most;
+}
+
+TEST(Stepper, StableAsFarAsTheySay) {
+  for (const char* method : {"euler", "sts", "heun", "rk4"}) {
+    const double longest = make_stepper(method)->stability() / 4;
+    EXPECT_LT(after_diffusion(method, .99 * longest), .8) << method;
+    EXPECT_GT(after_diffusion(method, 1.1 * longest), 2) << method;
   }
 }
 
