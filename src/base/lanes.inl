@@ -11,6 +11,7 @@ typedef double Four __attribute__((vector_size(32)));
 typedef double FourAnywhere __attribute__((vector_size(32), may_alias, aligned(8)));
 typedef long Mask __attribute__((vector_size(32)));  // as comparisons give
 typedef int Steps __attribute__((vector_size(16)));
+typedef int FourSteps __attribute__((vector_size(16), may_alias, aligned(4)));
 
 inline Four all(double x) { return Four{x, x, x, x}; }
 inline Four load(const double* p) { return *reinterpret_cast<const FourAnywhere*>(p); }
@@ -18,6 +19,11 @@ inline void store(double* p, Four v) { *reinterpret_cast<FourAnywhere*>(p) = v; 
 inline Four choose(Mask mask, Four yes, Four no) { return (Four)(((Mask)yes & mask) | ((Mask)no & ~mask)); }
 inline Four magnitude(Four x) { return (Four)((Mask)x & (Mask{} + 0x7fffffffffffffffL)); }
 inline Four greater(Four a, Four b) { return choose(a > b, a, b); }  // b where one is no number
+/// `left` of the four (by the element, which would be read again as a whole only after a wait, where fewer).
+inline void store(double* p, long left, Four v) {
+  if (left >= 4) return store(p, v);
+  for (long k = 0; k < left; ++k) p[k] = v[k];
+}
 /// One bit for each of the four.
 inline int bits_of(Mask mask) {
 #if defined(__AVX__)

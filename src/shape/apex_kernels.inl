@@ -65,12 +65,15 @@ struct Points {
 
 /// Four points of a list; behind its end the first of the four again.
 inline Points points_at(const double* points, long left) {
-  Points p;
-  for (int k = 0; k < 4; ++k) {
-    const double* q = points + 3 * (k < left ? k : 0);
-    p.x[k] = q[0], p.y[k] = q[1], p.z[k] = q[2];
+  if (left < 4) {
+    Points p{all(points[0]), all(points[1]), all(points[2])};
+    for (long k = 1; k < left; ++k) p.x[k] = points[3 * k], p.y[k] = points[3 * k + 1], p.z[k] = points[3 * k + 2];
+    return p;
   }
-  return p;
+  const Four a = load(points), b = load(points + 4), c = load(points + 8);  // x y z x | y z x y | z x y z
+  const Four xy = __builtin_shuffle(a, b, Mask{0, 3, 6, 5}), yx = __builtin_shuffle(a, b, Mask{1, 4, 7, 2});
+  return {__builtin_shuffle(xy, c, Mask{0, 1, 2, 5}), __builtin_shuffle(yx, c, Mask{0, 1, 2, 6}),
+          __builtin_shuffle(__builtin_shuffle(yx, b, Mask{3, 5, 0, 0}), c, Mask{0, 1, 4, 7})};
 }
 
 inline Points places(const double* x, const double* y, const double* z, long left) {
@@ -81,7 +84,14 @@ inline Points places(const double* x, const double* y, const double* z, long lef
 }
 
 inline void put(double* points, long left, const Points& p) {
-  for (int k = 0; k < 4 && k < left; ++k) points[3 * k] = p.x[k], points[3 * k + 1] = p.y[k], points[3 * k + 2] = p.z[k];
+  if (left < 4) {
+    for (long k = 0; k < left; ++k) points[3 * k] = p.x[k], points[3 * k + 1] = p.y[k], points[3 * k + 2] = p.z[k];
+    return;
+  }
+  const Four low = __builtin_shuffle(p.x, p.y, Mask{0, 4, 1, 5}), high = __builtin_shuffle(p.x, p.y, Mask{2, 6, 3, 7});
+  store(points, __builtin_shuffle(low, __builtin_shuffle(low, p.z, Mask{4, 2, 5, 3}), Mask{0, 1, 4, 5}));
+  store(points + 4, __builtin_shuffle(__builtin_shuffle(low, p.z, Mask{3, 5, 0, 0}), high, Mask{0, 1, 4, 5}));
+  store(points + 8, __builtin_shuffle(high, p.z, Mask{6, 2, 3, 7}));
 }
 
 /// (x, y) of the profile, in the direction of p.
@@ -179,8 +189,7 @@ void beyond(const ApexView& apex, const double* x, const double* y, const double
     const Four way = column(here, 1).value(here) - a;
     const Mask clear = within(apex.place, level) &
                        (magnitude(way) > all(1.4142135623730950488) * off / apex.rise + apex.on_profile * apex.size);
-    const Four far = choose(clear, choose(way > Four{}, all(1), Four{}), nan());
-    for (int k = 0; k < left; ++k) answer[i + k] = far[k];
+    store(answer + i, left, choose(clear, choose(way > Four{}, all(1), Four{}), nan()));
   }
 }
 
@@ -189,8 +198,8 @@ void locate(const ApexView& apex, const double* x, const double* y, const double
   for (long i = 0; i < count; i += 4) {
     const long left = count - i < 4 ? count - i : 4;
     const Points p = places(x + i, y + i, z + i, left);
-    const Four arc = nearest_arc(apex, root(p.x * p.x + p.z * p.z), p.y), turn = angle(p.x, p.z);
-    for (int k = 0; k < left; ++k) a[i + k] = arc[k], theta[i + k] = turn[k];
+    store(a + i, left, nearest_arc(apex, root(p.x * p.x + p.z * p.z), p.y));
+    store(theta + i, left, angle(p.x, p.z));
   }
 }
 
@@ -199,16 +208,16 @@ void deepest(const Disc* discs, int count_of_discs, const double* x, const doubl
   for (long i = 0; i < count; i += 4) {
     const long left = count - i < 4 ? count - i : 4;
     const Points p = places(x + i, y + i, z + i, left);
-    Four least = all(1), found{};
-    for (int d = 0; d < count_of_discs; ++d) {
+    Four least = all(1), found{}, number = all(1);
+    for (int d = 0; d < count_of_discs; ++d, number += 1.0) {
       const Four dx = p.x - discs[d].x, dy = p.y - discs[d].y, dz = p.z - discs[d].z;
       const Four here = (dx * dx + dy * dy + dz * dz) * discs[d].per_square;
       const Mask nearer = here < least;
       least = choose(nearer, here, least);
-      found = choose(nearer, all(d + 1), found);
+      found = choose(nearer, number, found);
     }
-    const Four deep = 1.0 - root(least);
-    for (int k = 0; k < left; ++k) disc[i + k] = found[k], depth[i + k] = deep[k];
+    store(disc + i, left, found);
+    store(depth + i, left, 1.0 - root(least));
   }
 }
 

@@ -12,12 +12,9 @@ namespace {
 struct Outline {
   const FourOutlines& o;
   int count;
+  Four corners;
   Point<Four> corner(int i) const { return {load(o.x[i]), load(o.y[i]), load(o.z[i])}; }
-  Mask has(int i) const {
-    Mask mask;
-    for (int k = 0; k < 4; ++k) mask[k] = i < o.corners[k] ? -1 : 0;
-    return mask;
-  }
+  Mask has(int i) const { return all(i) < corners; }
   /// Corner place[k] of outline k.
   Point<Four> of_each(const int* place) const {
     Point<Four> p;
@@ -36,11 +33,13 @@ struct Outline {
   }
 };
 
+inline Four corners_of(const FourOutlines& four) {
+  return __builtin_convertvector(*reinterpret_cast<const FourSteps*>(four.corners), Four);
+}
+
 int measure(const FourOutlines& four, FourMeasures& m) {
-  const Outline o{four, four.count};
-  Four corners;
-  for (int k = 0; k < 4; ++k) corners[k] = four.corners[k];
-  const auto [average, in_plane, not_flat] = spread<Four, Mask>(o, corners);
+  const Outline o{four, four.count, corners_of(four)};
+  const auto [average, in_plane, not_flat] = spread<Four, Mask>(o, o.corners);
   const FanMeasure<Four> fan = measure_fan<Four>(o, average);
   store(m.area, fan.area);
   store(m.x, fan.centroid.x);
@@ -50,7 +49,7 @@ int measure(const FourOutlines& four, FourMeasures& m) {
 }
 
 int plain(const FourOutlines& four, const double (*outward)[4]) {
-  const Outline o{four, four.count};
+  const Outline o{four, four.count, corners_of(four)};
   return bits_of(is_plain<Mask>(o, Point<Four>{load(outward[0]), load(outward[1]), load(outward[2])}));
 }
 
