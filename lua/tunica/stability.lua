@@ -16,8 +16,6 @@ local needed = 0.01                             -- how near two references must 
 local most_strides = 20
 local fewest_steps = 10                         -- a longer step is not tried: instability could not show
 local too_large = 100                           -- times the greatest value at the start and the end: no longer bounded
--- Where the step times the spectral radius may be, at most, for rates whose derivative has negative real eigenvalues.
-local limits = { euler = 2, sts = 21.89, heun = 2, rk4 = 2.785 }
 
 --- begin(model, options) -> the study. Errors: of the command line.
 function stability.begin(model, options)
@@ -113,7 +111,7 @@ local function judge(self, way, by)
     went, result.pattern = largest(self, way.name, by, "pattern", first, most)
     if not went then return false end
   end
-  result.theory = by == "dt" and self.radius and limits[way.name] and limits[way.name] / self.radius
+  result.theory = by == "dt" and self.radius and way.stability > 0 and way.stability / self.radius or nil
   self.results[#self.results + 1] = result
   trials.write_results(self)
   return true

@@ -46,19 +46,21 @@ void make_integrator(Machine& m) {
   m.before = {};
 }
 
-/// methods_of_solution() -> list of { name, title, order, implicit, adaptive, either }
+/// methods_of_solution() -> list of { name, title, order, stability, implicit, adaptive, either }
 int methods_of_solution(lua_State* L) {
   return guard(L, [&] {
     lua_newtable(L);
     int i = 0;
     for (const MethodInfo& m : methods()) {
-      lua_createtable(L, 0, 6);
+      lua_createtable(L, 0, 7);
       lua_pushstring(L, m.name);
       lua_setfield(L, -2, "name");
       lua_pushstring(L, m.title);
       lua_setfield(L, -2, "title");
       lua_pushinteger(L, m.order);
       lua_setfield(L, -2, "order");
+      lua_pushnumber(L, m.steps == Stepper::Steps::fixed ? m.make({})->stability() : 0);
+      lua_setfield(L, -2, "stability");
       for (const auto& [key, value] :
            {std::pair{"implicit", m.implicit}, {"adaptive", m.steps != Stepper::Steps::fixed}, {"either", m.either}}) {
         lua_pushboolean(L, value);

@@ -83,7 +83,7 @@ void add_script_options(CLI::App& app, Options& options) {
 constexpr const char* chart_closing = R"(
 A model whose course is chaotic (cells divide, a pattern decides) has an error of 1 by every method in the long run. What is left to
 compare is the pattern: with --score each setting is run on many seeds, and its mean held against that of the finest steps.
-  tunica chart phyllotaxis/transport_apex --score spiral --seeds 1..24 --until 25 --methods euler,rkc2
+  tunica chart phyllotaxis/transport_apex --score spiral --seeds 1..24 --until 25 --methods sts,euler,rkc2
 Steps that are parameters can be listed: step=.1,.2,.4. More: share/doc/methods.md.)";
 
 /// Of a chart of a score.

@@ -13,7 +13,7 @@ require "tunica.chart.look"  -- once, and not in every run
 local score = {}
 
 local first_look = 2           -- seeds: whether they matter is seen before all are run
-local finer, coarser = 4, 4    -- the finest and the coarsest step of simple methods, relative to the model's own
+local finer, coarser = 4, 4    -- the finest and the coarsest step of simple methods, relative to what own_step() says
 local coarsest = 64            -- of methods that take long steps in their stride
 local fewest_steps = 8         -- in a run
 local enough = 2               -- settings one after the other that keep the score: finer ones are not tried
@@ -29,6 +29,16 @@ local function is_simple(way) return not way.implicit and not way.adaptive end
 --- A step with two digits: 0.0057 says as much as 0.00565685, and can be remembered.
 local function round(dt) return tonumber(string.format("%.2g", dt)) end
 
+--- What a method makes of the model's own step: one that is stable farther takes longer ones.
+local function own_step(self, way)
+  for _, own in ipairs(core.methods_of_solution()) do
+    if own.name == self.own.method and self.own.dt and own.stability > 0 and way.stability > 0 and way.name ~= own.name then
+      return round(self.own.dt * way.stability / own.stability)
+    end
+  end
+  return self.own.dt or 10 ^ math.floor(math.log10(self.goal / 1000))
+end
+
 --- The steps or tolerances of a method, coarse to fine.
 local function ladder(self, way, by)
   local own = by == "dt" and self.options.steps or self.options.tolerances
@@ -38,7 +48,7 @@ local function ladder(self, way, by)
     return list
   end
   if by == "tolerance" then return tolerances end
-  local list, base = {}, self.own.dt or 10 ^ math.floor(math.log10(self.goal / 1000))
+  local list, base = {}, own_step(self, way)
   local from = is_simple(way) and self.own.dt and coarser or coarsest
   local to = is_simple(way) and 1 / finer or 1
   local times = from

@@ -63,7 +63,10 @@ local function scale_of(list)
     if row.seconds then least, most = math.min(least, row.seconds), math.max(most, row.seconds) end
   end
   if most > 12 * least then return "set xrange [*:*]\nset logscale x\nset format x '%g'\n" end
-  return string.format("set xrange [0:%s]\nset xtics auto\nset format x '%%g'\n", number(1.15 * math.max(most, 1e-6)))
+  local range = 1.15 * math.max(most, 1e-6)
+  local apart = 10 ^ math.floor(math.log10(range / 2))  -- two to four numbers: there is no room for more
+  apart = apart * (range > 8 * apart and 5 or range > 4 * apart and 2 or 1)
+  return string.format("set xrange [0:%s]\nset xtics %s\nset format x '%%g'\n", number(range), number(apart))
 end
 
 local legend = "filled: keeps the score     dotted: the difference that matters     *: the cheapest"
