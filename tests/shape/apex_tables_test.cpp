@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shape/apex_tables.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "shape/apex.h"
@@ -127,6 +128,65 @@ TEST(ApexTables, InstructionSetsGiveTheSameBits) {
     for (const auto& part : {moved, facing, theta, a, far}) all.insert(all.end(), part.begin(), part.end());
   }
   EXPECT_EQ(std::memcmp(results[0].data(), results[1].data(), results[0].size() * sizeof(double)), 0);
+}
+
+/// Points by the four and what is left of them: each as alone, and nothing written behind them.
+TEST(ApexTables, AnyNumberOfPointsIsAnsweredAsOne) {
+  Dice dice(11);
+  const Profile profile = dome();
+  const Flow flow(Curve({{0, .25}, {1.7, .25}, {2, .2}, {2.4, .17}, {8, .17}}));
+  ApexTables tables;
+  const ApexView* view = tables.ready(profile, flow).view();
+  ASSERT_TRUE(view);
+  const Disc discs[] = {{.5, -.2, .5, 1}, {-.5, -.2, .5, 2}, {.4, -.3, .4, 1}};
+  std::vector<const ApexKernels*> sets{&sse2::apex_kernels()};
+  if (__builtin_cpu_supports("avx2")) sets.push_back(&avx2::apex_kernels());
+  // Of points x, y, z, x, y, z, ...: eleven columns of as many values.
+  const auto answers = [&](const ApexKernels& kernels, const std::vector<double>& xyz) {
+    const size_t n = xyz.size() / 3;
+    const long count = static_cast<long>(n);
+    std::vector<double> x(n), y(n), z(n), all;
+    for (size_t i = 0; i < n; ++i) x[i] = xyz[3 * i], y[i] = xyz[3 * i + 1], z[i] = xyz[3 * i + 2];
+    constexpr double untouched = -77;
+    const auto keep = [&](const std::vector<double>& column) {
+      all.insert(all.end(), column.begin(), column.begin() + count);
+      EXPECT_TRUE(std::all_of(column.begin() + count, column.end(), [](double v) { return v == untouched; }));
+    };
+    const auto keep_points = [&](const std::vector<double>& points) {
+      for (size_t axis = 0; axis < 3; ++axis)
+        for (size_t i = 0; i < n; ++i) all.push_back(points[3 * i + axis]);
+      EXPECT_TRUE(std::all_of(points.begin() + 3 * count, points.end(), [](double v) { return v == untouched; }));
+    };
+    std::vector<double> points = xyz, a(n + 5, untouched), b = a;
+    points.resize(3 * n + 12, untouched);
+    std::vector<double> facing = points;
+    kernels.move(*view, .2, points.data(), count);
+    keep_points(points);
+    kernels.face(*view, facing.data(), count);
+    keep_points(facing);
+    kernels.locate(*view, x.data(), y.data(), z.data(), count, a.data(), b.data());
+    keep(a), keep(b);
+    kernels.beyond(*view, x.data(), y.data(), z.data(), count, 1.5, a.data());
+    keep(a);
+    kernels.deepest(discs, 3, x.data(), y.data(), z.data(), count, a.data(), b.data());
+    keep(a), keep(b);
+    return all;
+  };
+  std::vector<double> points;
+  for (int i = 0; i < 13; ++i) {
+    const double turn = dice.between(-3, 3), r = i == 6 ? 0 : dice.between(.1, 1.3);
+    points.insert(points.end(), {r * std::cos(turn), profile.at(profile.arc_at_radius(r)).y(), r * std::sin(turn)});
+  }
+  for (const ApexKernels* set : sets)
+    for (size_t n = 0; n <= 13; ++n) {
+      const std::vector<double> together = answers(*set, {points.begin(), points.begin() + static_cast<long>(3 * n)});
+      for (size_t i = 0; i < n; ++i) {
+        const double* p = points.data() + 3 * i;
+        const std::vector<double> alone = answers(*sets[0], {p, p + 3});
+        for (size_t column = 0; column < alone.size(); ++column)
+          EXPECT_EQ(std::memcmp(&together[column * n + i], &alone[column], sizeof(double)), 0) << n << " " << column;
+      }
+    }
 }
 
 /// A point far from the surface may have several nearest places: then the tables must not answer.
