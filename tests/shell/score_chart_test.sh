@@ -7,10 +7,10 @@ source "$(dirname "$0")/common.sh"
 # than 3 / k throws them below zero, where they stay: no more beats. Without `signed` the kernel stops such a run.
 cat >beats.lua <<'LUA'
 local tunica = require "tunica"
-local P = tunica.params { k = 12, chance = 0.2, signed = true, every = 0.25, wait = 0, untraced = false, method = "euler" }
+local P = tunica.params { k = 12, chance = 0.2, signed = true, every = 0.25, wait = 0, untraced = false, dt = 0.05, method = "euler" }
 local tissue = tunica.ring { 20 }
 tissue:cell { x = 0.5 }
-local model = tunica.model { tissue = tissue, params = P, dt = 0.05, stop = 10, method = P.method, signed = P.signed and { "x" } or nil }
+local model = tunica.model { tissue = tissue, params = P, dt = P.dt, stop = 10, method = P.method, signed = P.signed and { "x" } or nil }
 model:rate(function(c, d)
   local made = P.k * c.x * (1 - c.x)
   if P.untraced and c.x > 1e9 then made = 0 end
@@ -54,6 +54,10 @@ if command -v gnuplot >/dev/null; then
   [ "$(head -c 4 one/chart.png | tail -c 3)" = PNG ] || wrong "chart.png"
   says one/chart.svg "<svg"
 fi
+# The steps tried are the model's own times powers of two; where a method is stable farther (sts by 21.89 / 2), longer in proportion.
+code 0 chart dt=0.0123 --score level --seeds 1..2 --methods euler,heun,sts --out farther
+[ -n "$(cell farther/chart.csv heun dt 0.0492 6)" ] || wrong "heun does not take euler's steps"
+[ -n "$(cell farther/chart.csv sts dt 0.26 6)" ] || wrong "sts takes no longer steps than euler"
 # A step whose score differs for certain by what matters is not recommended, and is marked.
 code 0 chart --score level --seeds 1..6 --methods euler --dt 0.2,0.0125 --error 1e-4 --out marked
 says out.txt "!  euler"; says out.txt "That is the finest setting itself"; [ "$(cell marked/chart.csv euler dt 0.2 10)" = 1 ] || wrong "0.2 does not differ"

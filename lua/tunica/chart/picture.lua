@@ -10,7 +10,8 @@ local picture = {}
 -- One colour and mark for each method, the same in every chart. Colours that stay apart for the colour-blind (after Okabe
 -- and Ito 2008); methods of one family share a colour's neighbourhood, and marks tell them apart.
 local looks = {
-  euler = { "#000000", 7 }, sts = { "#606060", 2 }, heun = { "#56b4e9", 5 }, rk4 = { "#0072b2", 9 }, bs32 = { "#e69f00", 11 }, dp54 = { "#d55e00", 13 },
+  euler = { "#000000", 7 }, sts = { "#606060", 2 }, heun = { "#56b4e9", 5 }, rk4 = { "#0072b2", 9 },
+  bs32 = { "#e69f00", 11 }, dp54 = { "#d55e00", 13 },
   rkc2 = { "#009e73", 7 }, ["rkc2 fixed"] = { "#009e73", 6 }, backward_euler = { "#999999", 4 }, crank_nicolson = { "#8a5a83", 8 },
   bicg = { "#cc79a7", 10 }, bdf = { "#b8a000", 12 }, auto = { "#c8102e", 3 },
 }

@@ -29,14 +29,14 @@ local function is_simple(way) return not way.implicit and not way.adaptive end
 --- A step with two digits: 0.0057 says as much as 0.00565685, and can be remembered.
 local function round(dt) return tonumber(string.format("%.2g", dt)) end
 
---- What a method makes of the model's own step: one that is stable farther takes longer ones.
+--- What a method makes of the model's own step: one that is stable farther takes longer ones, one that is as stable the same.
 local function own_step(self, way)
+  if not self.own.dt then return 10 ^ math.floor(math.log10(self.goal / 1000)) end
   for _, own in ipairs(core.methods_of_solution()) do
-    if own.name == self.own.method and self.own.dt and own.stability > 0 and way.stability > 0 and way.name ~= own.name then
-      return round(self.own.dt * way.stability / own.stability)
-    end
+    local farther = own.name == self.own.method and own.stability > 0 and way.stability / own.stability or 0
+    if farther > 0 and farther ~= 1 then return round(self.own.dt * farther) end
   end
-  return self.own.dt or 10 ^ math.floor(math.log10(self.goal / 1000))
+  return self.own.dt
 end
 
 --- The steps or tolerances of a method, coarse to fine.
