@@ -45,7 +45,7 @@ class Stepper {
   /// Adaptive methods: the power of h with which the estimated error goes.
   virtual int error_order() const { return order() + 1; }
   /// Length of the interval of stability on the negative real axis, if it bounds the step: dt * spectral radius must
-  /// not pass it. 0: no such bound.
+  /// not pass it. (Of a method that is made to damp: of the interval in which it does.) 0: no such bound.
   virtual double stability() const { return 0; }
 
   /// Whether it keeps something between steps that decides bits.
