@@ -14,7 +14,7 @@ local P = tunica.params(shoot.with({}, {
     fixed_pin = { steady_pin = true, pin = 0.94, rho_proximal = 2.5, rho_primordium = 2.5 },
     iaa_saturation = { kI = 0, rho_proximal = 1, rho_peripheral = 0.9, rho_primordium = 1, dt = 0.025 },
     transport_power = { power = 1.5, T = 19, Th = 7, peripheral = 2.73 },
-    allocation_base = { b = 4, D = 4.5, T = 22 },
+    allocation_base = { b = 4, D = 4.5, T = 22, dt = 0.025 },
   },
 }))
 

@@ -61,6 +61,8 @@ says err.txt "try a smaller dt"
 rm -rf long
 code 3 "$tunica" phyllotaxis/transport_apex dt=0.1 --until 10 --no-frames -q --out long
 says err.txt "method's limit of about"
+# A mesh on which twice the step of this variant ends below zero.
+code 0 "$tunica" phyllotaxis/sensitivity variant=allocation_base --seed 19 --until 25 --no-frames -q --out sharper
 code 2 "$tunica" phyllotaxis/transport_apex variant=decusate --no-frames -q
 says err.txt "did you mean 'decussate'"
 
