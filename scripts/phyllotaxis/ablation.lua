@@ -46,6 +46,12 @@ model:every(P.step, function(t)
   end
 end)
 
+--- Where auxin jumps over the threshold between two looks, there is nothing to ablate.
+function my.note()
+  return not found.time and string.format("nothing was ablated: from t = %g on auxin outside primordia was never seen at %g of the " ..
+    "threshold; lower incipient, or take another seed", P.after, P.incipient) or nil
+end
+
 local function following() return found.before and my.primordia[found.before + 1] end
 model:report {
   ablated_at = function() return found.time or 0 end,

@@ -28,6 +28,7 @@ end
 assert(without_colour() == 0)
 model:advance(4)
 assert(reported "ablated_at" == 0 and without_colour() == 0)
+assert(reported "note":find "nothing was ablated")
 local t = 4
 repeat
   t = t + 0.2
@@ -35,6 +36,7 @@ repeat
 until reported "ablated_at" > 0 or t > 8
 local at = reported "ablated_at"
 assert(at > 4 and at < 8, at)
+assert(reported "note" == "", reported "note")
 assert(without_colour() == P.count, without_colour())
 assert(side.missing[1] == "black")
 assert(reported "cells" == #tissue - P.count)

@@ -311,7 +311,7 @@ function shoot.facing(my, angle)
 end
 
 --- Reports and pictures that all of these models have. `most`: of the angles; `looks`: options of the pictures of cells that differ,
--- and `camera` of the one from the side.
+-- and `camera` of the one from the side. my.note() may say more.
 function shoot.report(my, most, looks)
   local P, list = my.P, my.primordia
   my.model:report {
@@ -328,6 +328,8 @@ function shoot.report(my, most, looks)
     cells_around = function() return cells_around(my) end,
     cells = function() return my.mortal and my.tissue:sum "living" or #my.tissue end,
     note = function()
+      local own = my.note and my.note()
+      if own then return own end
       if #list > P.initial then return "" end
       local most = 0
       for c in my.tissue:cells() do
