@@ -72,6 +72,13 @@ code 0 "$tunica" sweep show fine.db --csv
 awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "spiral") at = i } NR > 1 { sum += $at; ++n } END { exit !(n == 6 && sum / n >= 0.8) }' out.txt ||
   wrong "the spiral of variant=fine does not last"
 
+# On an apex that grows up, from no primordia: the first ones come late and few, not all around at once; and it goes on.
+run transport_apex variant=seedling --until 16 --seed 1
+between primordia 2 5
+between plastochron 0.01 8
+run transport_apex variant=fine initial=0 --until 2 --seed 1
+between primordia 5 12
+
 # A run that was stopped goes on with the same bits, primordia included.
 code 0 "$tunica" phyllotaxis/transport_apex --until 6 --no-frames -q --out whole
 cp out.txt whole.txt

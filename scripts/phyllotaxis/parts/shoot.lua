@@ -43,6 +43,9 @@ function shoot.parameters()
     peripheral = { 3.063, "width of the peripheral zone", min = 0.1 },
     proximal = { 1.8, "width of what is kept of the proximal zone", min = 0 },
     widening = { 0, "rate at which the zones widen (the apex with them it does not)", unit = "1 / time", min = -1, max = 1 },
+    young = { 1, "size of the zones at the start, relative to that which they grow to", min = 0.05, max = 1 },
+    growing_up = { 20, "time in which all but 1 / e of the difference is made up", min = 1e-3 },
+    onset = { 0, "time over which production sets in, from none", min = 0 },
     max_area = { 0.283, "area at which a cell divides", min = 1e-4 },
     variation = { 0.1, "of that area from cell to cell", min = 0, max = 0.9 },
     gap = { 0.23, "least distance of a new wall from old junctions, relative to the root of max_area", min = 0, max = 1 },
@@ -55,7 +58,7 @@ function shoot.parameters()
     scatter = { 0, "standard deviation of these angles: how well is a disturbed spiral mended?", unit = "degrees", min = 0 },
     jugacy = { 1, "of them start at once, evenly around the apex; angle is then between whorls", min = 1, max = 6 },
     auxin = { 1.5, "auxin at the start, between them", min = 0 },
-    dt = { 0.05, "time step; of euler at most a tenth of it", min = 1e-6 },
+    dt = { 0.04, "time step; of euler at most a tenth of it", min = 1e-6 },
     method = "sts",  -- five Euler steps of unequal lengths: stable to steps ten times as long as Euler's
   }
 end
@@ -121,9 +124,12 @@ function shoot.apex(P)
   return my
 end
 
+--- The size of the zones at a time, relative to P; `exp`: of numbers, or of rules.
+local function size_of_zones(P, t, exp) return exp(P.widening * t) * (1 - (1 - P.young) * exp(-t / P.growing_up)) end
+
 --- A primordium starts between two neighbours with auxin above the threshold, in the peripheral zone and outside primordia.
 local function initiate(my)
-  local P, wider, before = my.P, math.exp(my.P.widening * my.surface:time()), #my.primordia
+  local P, wider, before = my.P, size_of_zones(my.P, my.surface:time(), math.exp), #my.primordia
   while true do
     if #my.primordia > before + 12 then
       error(string.format("more than 12 primordia start at once at time %.4g: auxin is above the threshold Th = %.4g nearly everywhere",
@@ -161,9 +167,10 @@ function shoot.model(my)
   model:derive("side", function(s) s.pin = s.cell.share * s.neighbour.pull end)  -- for pictures: PIN1 by length of wall
 
   model:rate(function(c, d, t)
-    local wider = tunica.exp(P.widening * t)
-    local in_zone = P.rho_proximal + tunica.where(tunica.below(c.a, (P.central + P.peripheral) * wider), P.rho_peripheral, 0)
-    local made = tunica.where(tunica.below(c.a, P.central * wider), 0, in_zone + P.rho_primordium * c.closeness)  -- (5.10)
+    local wider, made_now = size_of_zones(P, t, tunica.exp), tunica.where(tunica.below(t, P.onset), t / tunica.max(P.onset, 1e-9), 1)
+    local in_zone = made_now * P.rho_proximal +
+      tunica.where(tunica.below(c.a, (P.central + P.peripheral) * wider), made_now * P.rho_peripheral, 0)
+    local made = tunica.where(tunica.below(c.a, P.central * wider), 0, in_zone + made_now * P.rho_primordium * c.closeness)  -- (5.10)
     if mortal then made = c.living * made end
     local leaves = P.drain * tunica.max(0, c.auxin - P.most)
     d.auxin = made / (1 + P.kI * c.auxin) - P.mu * c.auxin - leaves
