@@ -9,7 +9,7 @@ local shoot = require "parts.shoot"
 
 local P = tunica.params(shoot.with({}, {
   after = { 4, "from when on a primordium about to start is looked for", unit = "time", min = 0 },
-  incipient = { 0.7, "auxin outside primordia at which it is found, as a share of the threshold", min = 0, max = 1 },
+  incipient = { 0.6, "auxin outside primordia at which it is found, as a share of the threshold", min = 0, max = 1 },
   count = { 5, "how many cells are killed there", min = 0, max = 1000 },
 }))
 
