@@ -4,8 +4,8 @@
 -- HOW     PIN1 goes to walls by their length and, exponentially, by the auxin behind them (5.7); PIN1 and auxin are made and decay
 --         (5.8, 5.9). Primordia make more auxin, polarize PIN1 towards their centre (5.10, 5.11) and drain what is above a limit.
 -- TRY     variant=fine (54 cells around in place of 24: the spiral lasts)   variant=distichous   variant=decussate
---         variant=tricussate   variant=seedling --until 85 (from no primordia, on an apex that grows up: pairs, then on some seeds a spiral)
---         initial=0 (no primordia at the start)
+--         variant=tricussate   variant=seedling --until 85 (from no primordia, on an apex that grows up: pairs, on some
+--         seeds then a spiral)   initial=0 (no primordia at the start)
 --         r_birth=0.5 r_most=0.6 (primordia that stay small: no spiral)   scatter=8 (a disturbed start)
 --         method=euler dt=0.02 (fails)   height=0.5 (primordia bulge)
 -- SOURCE  R. S. Smith, PhD thesis, University of Calgary 2007, section 5.5, figs 5.8-5.11, table 5.1
@@ -13,7 +13,8 @@ local tunica = require "tunica"
 local shoot = require "parts.shoot"
 
 local P = tunica.params(shoot.with({}, {
-  variant = { "fibonacci", "the pattern: fibonacci, distichous, decussate, tricussate; fine, a spiral of more cells that lasts; seedling, from none" },
+  variant = { "fibonacci", "the pattern: fibonacci, distichous, decussate, tricussate; fine, a spiral of more cells that lasts; " ..
+    "seedling, from none" },
   variants = {
     fibonacci = {},
     fine = { radius = 1.936, slope = 63.18, growth = 0.06789, growth_tip = 2.544, growth_to = 1.245, growth_over = 0.427,
