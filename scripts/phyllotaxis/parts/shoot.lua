@@ -347,7 +347,7 @@ function shoot.report(my, most, looks)
     drained = function() return my.tissue:sum "drained" end,  -- amount of auxin, by the cells that are still there
   }
   local shown = { colour = "auxin", palette = "greens", range = { 0, 12 }, sides = { "pin", colour = "#e02020" }, light = true,
-    every = 0.5, size = { 820, 760 } }
+    every = 0.4, size = { 820, 760 } }  -- whole steps of all the variants
   for key, value in pairs(looks or {}) do shown[key] = value end
   local cameras = { top = { direction = { 0, -1, 0 }, up = { 0, 0, -1 } }, side = shown.camera or
     { direction = { 0, -0.45, -1 }, up = { 0, 1, 0 } } }
