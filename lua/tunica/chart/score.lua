@@ -32,11 +32,11 @@ local function round(dt) return tonumber(string.format("%.2g", dt)) end
 --- What a method makes of the model's own step: one that is stable farther takes longer ones, one that is as stable the same.
 local function own_step(self, way)
   if not self.own.dt then return 10 ^ math.floor(math.log10(self.goal / 1000)) end
-  for _, own in ipairs(core.methods_of_solution()) do
-    local farther = own.name == self.own.method and own.stability > 0 and way.stability / own.stability or 0
-    if farther > 0 and farther ~= 1 then return round(self.own.dt * farther) end
-  end
-  return self.own.dt
+  local stability = {}
+  for _, each in ipairs(core.methods_of_solution()) do stability[each.name] = each.stability end
+  local own = stability[self.own.method] or 0
+  if own == 0 or way.stability == 0 or way.stability == own then return self.own.dt end
+  return round(self.own.dt * (way.stability / own))
 end
 
 --- The steps or tolerances of a method, coarse to fine.

@@ -129,14 +129,14 @@ local function size_of_zones(P, t, exp) return exp(P.widening * t) * (1 - (1 - P
 
 --- A primordium starts between two neighbours with auxin above the threshold, in the peripheral zone and outside primordia.
 local function initiate(my)
-  local P, wider, before = my.P, size_of_zones(my.P, my.surface:time(), math.exp), #my.primordia
+  local P, size, before = my.P, size_of_zones(my.P, my.surface:time(), math.exp), #my.primordia
   while true do
     if #my.primordia > before + 12 then
       error(string.format("more than 12 primordia start at once at time %.4g: auxin is above the threshold Th = %.4g nearly everywhere",
         my.surface:time(), P.Th), 0)
     end
     local first, second = my.tissue:pair { "auxin", above = P.Th,
-      where = { primordium = 0, a = { P.central * wider, (P.central + P.peripheral) * wider } } }
+      where = { primordium = 0, a = { P.central * size, (P.central + P.peripheral) * size } } }
     if not first then return end
     local x, y, z = (first.x + second.x) / 2, (first.y + second.y) / 2, (first.z + second.z) / 2
     local theta, a = my.apex:closest(x, y, z)
@@ -167,10 +167,12 @@ function shoot.model(my)
   model:derive("side", function(s) s.pin = s.cell.share * s.neighbour.pull end)  -- for pictures: PIN1 by length of wall
 
   model:rate(function(c, d, t)
-    local wider, made_now = size_of_zones(P, t, tunica.exp), tunica.where(tunica.below(t, P.onset), t / tunica.max(P.onset, 1e-9), 1)
-    local in_zone = made_now * P.rho_proximal +
-      tunica.where(tunica.below(c.a, (P.central + P.peripheral) * wider), made_now * P.rho_peripheral, 0)
-    local made = tunica.where(tunica.below(c.a, P.central * wider), 0, in_zone + made_now * P.rho_primordium * c.closeness)  -- (5.10)
+    local size = size_of_zones(P, t, tunica.exp)
+    -- A factor of the three rho, which are the same in all cells: a factor of the sum would cost a product in each.
+    local set_in = tunica.where(tunica.below(t, P.onset), t / tunica.max(P.onset, 1e-9), 1)
+    local in_zone = set_in * P.rho_proximal +
+      tunica.where(tunica.below(c.a, (P.central + P.peripheral) * size), set_in * P.rho_peripheral, 0)
+    local made = tunica.where(tunica.below(c.a, P.central * size), 0, in_zone + set_in * P.rho_primordium * c.closeness)  -- (5.10)
     if mortal then made = c.living * made end
     local leaves = P.drain * tunica.max(0, c.auxin - P.most)
     d.auxin = made / (1 + P.kI * c.auxin) - P.mu * c.auxin - leaves
